@@ -1,0 +1,66 @@
+/* Figure: a finished shape, sampled on regular grids from edge to edge, for files, pictures and meshes. Made
+ * once per export or proof, never in the loop. */
+#ifndef VES_SURFACE_FIGURE_H
+#define VES_SURFACE_FIGURE_H
+
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "vesica/mesh.h"
+#include "vesica/status.h"
+
+/* One patch on (nu + 1) x nv nodes when periodic in v, else (nu + 1) x (nv + 1): node (i, j) at i * columns +
+ * j, u = i / nu, v = v_min + j * (v_max - v_min) / nv. */
+typedef struct ves_figure_patch {
+    const char *name;
+    int nu, nv, rows, columns;
+    bool periodic;
+    double v_min, v_max; /* both 0: 0 .. 2 pi */
+    double *X[3];        /* m */
+    double
+        *normal[3]; /* unit, outward; zero where the surface has none (poles are filled with their limit) */
+    double *H, *K, *k1, *k2; /* 1/m, 1/m^2; k1 >= k2; H = +1/R on a sphere */
+    double side;             /* +1: Xu x Xv points outward, -1: inward */
+    int edge[2];  /* which seam the ends u = 0 and u = 1 lie on; ends with the same number share a curve; -1:
+                     free */
+    bool pole[2]; /* the end is a single point */
+    bool cap[2];  /* the end is to be closed by a fan to its mean point */
+} ves_figure_patch;
+
+typedef struct ves_figure {
+    ves_arena arena;
+    const char *title;
+    const char *unit; /* "m", or NULL when the problem has no units: what pictures write beside lengths */
+    bool closed;      /* with caps, the patches enclose a volume */
+    int patches;
+    ves_figure_patch *patch;
+} ves_figure;
+
+/* Welds the patches to one mesh in the figure's arena: ends on the same seam share vertices (by index, never
+ * by distance), poles are one vertex, caps are fans, periodic patches close. vertex_patch and vertex_node
+ * (both [vertices], NULL: not wanted) say which patch and node a vertex came from (-1, -1 for the middle of a
+ * cap). All patches on one seam must have the same nv. */
+ves_status ves_figure_mesh(ves_figure *figure, ves_mesh *mesh, int **vertex_patch, int **vertex_node);
+
+/* Triangles of one patch alone, corners as nodes of the patch: columns close, all of a pole is its first
+ * node. Outward; quads are cut along the shorter diagonal. corner has room for 2 nu nv triangles; returns how
+ * many were made. */
+int ves_figure_triangles(const ves_figure_patch *patch, int *corner);
+
+/* The two nodes of segment `j` (0 .. nv - 1) of end `end`, in the order that a cap's triangle (node[0],
+ * node[1], middle) needs to be outward, and the middle: the mean of the end's nodes. */
+void ves_figure_rim(const ves_figure_patch *patch, int end, int j, int node[2]);
+void ves_figure_middle(const ves_figure_patch *patch, int end, double middle[3]);
+
+/* The node whose position welding gives to a node: on a seam, that of the first end that lies on it (*owner:
+ * its patch). The two differ by rounding. */
+int ves_figure_owner(const ves_figure *figure, int patch, int node, int *owner);
+
+/* u and v of a node. */
+double ves_figure_u(const ves_figure_patch *patch, int node);
+double ves_figure_v(const ves_figure_patch *patch, int node);
+
+/* Frees a figure that ves_memory_take made, with all that its arena holds. */
+void ves_figure_destroy(ves_figure *figure);
+
+#endif

@@ -1,0 +1,84 @@
+/* Patches: X(u, v) on [0, 1] x [0, 2 pi], however it is made. A patch is bound once for each x; a *chart* is
+ * a patch on one grid with the tables that belong to it. The plan asks a chart for its fields tile by tile,
+ * hands the adjoint of the fields back tile by tile, and at the end the patch hands its adjoint on to the
+ * curves and numbers it was made of.
+ *
+ * Order of calls for one x:   bind, then for each chart: prepare, sample*        (values)
+ *                             clear, then for each chart: scatter*, gather; then unbind   (gradient)
+ * Nothing here allocates after the chart is created. Everything lives in the plan's arena; one thread at a
+ * time. */
+#ifndef VES_SURFACE_PATCH_H
+#define VES_SURFACE_PATCH_H
+
+#include "curve/curve.h"
+#include "surface/synthesis.h"
+#include "surface/weights.h"
+
+enum {
+    VES_PATCH_MODES = 40
+}; /* modes solved one by one unless the file says more; what is beyond goes into the remainder */
+
+typedef struct ves_patch ves_patch;
+typedef struct ves_chart ves_chart;
+
+/* Where the numbers come from: the number block and the curves bound to it. */
+typedef struct ves_bound {
+    const double *number;
+    const bool *varying; /* [block] */
+    ves_curves *curves;
+} ves_bound;
+
+/* A condition of a PDE patch: d_u^k X(u) = scale * (curve - from). */
+typedef struct ves_datum {
+    int curve, from; /* from: -1: none */
+    int scale;       /* number block index, -1: 1 */
+} ves_datum;
+
+/* (d_uu + a^2 d_vv)^N X = 0 with 2N conditions [Ugail 2011, eqs 4.35, 4.15-4.18]. a: number block index.
+ * modes: solved one by one; 0: all up to the data's band limit, at most VES_PATCH_MODES. Modes beyond are all
+ * taken at lam = a (modes + 1), the remainder of [Ugail 2011, eqs 4.45-4.52 as corrected in docs/errata.md],
+ * so that the end curves are met exactly. */
+ves_status ves_patch_pde(const ves_layout *layout, const ves_datum *datum, int a, int modes,
+                         const ves_bound *bound, ves_arena *arena, ves_patch **patch);
+
+/* X = (formula[0..2])(u', v') where u', v' run over the given ranges; arguments 0 and 1 of the formulas. */
+ves_status ves_patch_formula(const ves_formula *const formula[3], const double u_range[2],
+                             const double v_range[2], int slots, bool periodic, const ves_bound *bound,
+                             ves_arena *arena, ves_patch **patch);
+
+/* Interpolation of a grid of points by cubic splines: not-a-knot along u, and along v (periodic: closed).
+ * points: number block index of the first of 3 * rows * columns numbers. */
+ves_status ves_patch_points(int rows, int columns, int points, bool periodic, const ves_bound *bound,
+                            ves_arena *arena, ves_patch **patch);
+
+bool ves_patch_periodic(const ves_patch *patch);
+bool ves_patch_varies(const ves_patch *patch);
+int ves_patch_modes(const ves_patch *patch); /* modes solved; 0 for other kinds */
+int ves_patch_band(const ves_patch *patch);  /* band limit of the data; 0 for other kinds */
+
+/* fields: bit f for VES_FIELD_f, all that this chart will ever be asked for. The grid must outlive the chart.
+ */
+ves_status ves_chart_create(ves_patch *patch, const ves_grid *grid, unsigned fields, ves_arena *arena,
+                            ves_chart **chart);
+
+void ves_patch_bind(ves_patch *patch, const ves_bound *bound);
+/* gradient: prepare also what scatter needs. */
+void ves_chart_prepare(ves_chart *chart, const ves_bound *bound, bool gradient);
+void ves_chart_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field);
+
+void ves_patch_clear(ves_patch *patch);
+void ves_chart_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_planes *adjoint);
+void ves_chart_gather(ves_chart *chart, const ves_bound *bound, double *number_adjoint);
+void ves_patch_unbind(ves_patch *patch, const ves_bound *bound, double *number_adjoint);
+
+/* Exact values at scattered points: out[(f * 3 + c) * count + k]. room from ves_patch_point_room. */
+long ves_patch_point_room(const ves_patch *patch);
+void ves_patch_point(const ves_patch *patch, const ves_bound *bound, int count, const double *u,
+                     const double *v, double *out, double *room);
+
+/* The spine A_0(u), the mean over v of X(u, .) [Ugail 2011, 5.3], of a PDE patch: out[(d * 3 + c) * count +
+ * k], d = 0..2. false: this patch has none. */
+bool ves_patch_spine(const ves_patch *patch, const ves_bound *bound, int count, const double *u, double *out,
+                     double *room);
+
+#endif

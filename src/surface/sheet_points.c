@@ -1,0 +1,210 @@
+/* Sheets through a grid of points: a tensor product of cardinal cubic splines, linear in the points. */
+#include "surface/sheet.h"
+
+#include <math.h>
+#include <string.h>
+
+/* One direction: second derivatives at the knots are a matrix times the values (knots at 0, 1, 2 ...). */
+typedef struct spline {
+    int knots;
+    bool periodic;
+    double *moment; /* [knots][knots] */
+} spline;
+
+typedef struct grid_of_points {
+    int rows, columns, points;
+    spline u, v;
+} grid_of_points;
+
+typedef struct tables {
+    double *u[3], *v[3]; /* [derivative][node][knot] */
+} tables;
+
+/* Dense elimination with partial pivoting; a becomes rubbish, b the solution. Spline systems are never
+ * singular. */
+static void eliminate(int n, double *a, double *b)
+{
+    for (int p = 0; p < n; p++) {
+        int best = p;
+        for (int r = p + 1; r < n; r++)
+            if (fabs(a[r * n + p]) > fabs(a[best * n + p])) best = r;
+        for (int c = 0; c < n && best != p; c++) {
+            double swap = a[p * n + c];
+            a[p * n + c] = a[best * n + c], a[best * n + c] = swap;
+            swap = b[p * n + c], b[p * n + c] = b[best * n + c], b[best * n + c] = swap;
+        }
+        for (int r = 0; r < n; r++) {
+            double f = r == p ? 0 : a[r * n + p] / a[p * n + p];
+            for (int c = 0; c < n && f != 0; c++)
+                a[r * n + c] -= f * a[p * n + c], b[r * n + c] -= f * b[p * n + c];
+        }
+    }
+    for (int p = 0; p < n; p++)
+        for (int c = 0; c < n; c++) b[p * n + c] /= a[p * n + p];
+}
+
+/* m_{k-1} + 4 m_k + m_{k+1} = 6 (y_{k-1} - 2 y_k + y_{k+1}); not-a-knot ends: the third derivative goes on
+ * through the second knot. Two knots make a line, three a parabola. */
+static ves_status spline_create(int n, bool periodic, ves_arena *arena, spline *s)
+{
+    *s = (spline){.knots = n, .periodic = periodic};
+    double *a = ves_arena_take(arena, (size_t)(n * n), sizeof *a);
+    s->moment = ves_arena_take(arena, (size_t)(n * n), sizeof(double));
+    if (!a || !s->moment) return VES_MEMORY;
+    double *b = s->moment;
+    for (int k = 0; k < n; k++) {
+        bool inner = periodic || (k > 0 && k < n - 1);
+        int before = (k + n - 1) % n, after = (k + 1) % n;
+        if (inner) {
+            a[k * n + before] += 1, a[k * n + k] += 4, a[k * n + after] += 1;
+            b[k * n + before] += 6, b[k * n + k] -= 12, b[k * n + after] += 6;
+        } else if (n < 4) {
+            a[k * n + k] = 1; /* a line; for three knots the parabola's constant second derivative */
+            if (n == 3) a[k * n + 1] = -1;
+        } else {
+            int in = k ? -1 : 1; /* m_0 - 2 m_1 + m_2 = 0 */
+            a[k * n + k] = 1, a[k * n + k + in] = -2, a[k * n + k + 2 * in] = 1;
+        }
+    }
+    eliminate(n, a, b);
+    return VES_OK;
+}
+
+/* Row of cardinal values at parameter t in [0, 1] (whole range), derivative d with respect to the surface
+ * coordinate. */
+static void spline_row(const spline *s, double t, double range, int d, double *row)
+{
+    int n = s->knots, pieces = s->periodic ? n : n - 1;
+    double x = t * pieces;
+    int k = (int)floor(x);
+    k = k < 0 ? 0 : k > pieces - 1 ? pieces - 1 : k;
+    double p = x - k, q = 1 - p, scale = pow(pieces / range, d);
+    int next = (k + 1) % n;
+    const double value[3][4] = {{q, p, (q * q * q - q) / 6, (p * p * p - p) / 6},
+                                {-1, 1, -(3 * q * q - 1) / 6, (3 * p * p - 1) / 6},
+                                {0, 0, q, p}};
+    const double *w = value[d];
+    for (int c = 0; c < n; c++)
+        row[c] = scale * (w[2] * s->moment[k * n + c] + w[3] * s->moment[next * n + c]);
+    row[k] += scale * w[0];
+    row[next] += scale * w[1];
+}
+
+static ves_status chart_create(ves_patch *patch, ves_chart *chart, ves_arena *arena)
+{
+    const grid_of_points *g = patch->state;
+    const ves_grid *grid = chart->grid;
+    ves_sheet *sheet;
+    VES_TRY(ves_sheet_create(chart, (size_t)g->rows, arena, &sheet));
+    tables *t = ves_arena_take(arena, 1, sizeof *t);
+    if (!t) return VES_MEMORY;
+    for (int d = 0; d < 3; d++) {
+        t->u[d] = ves_arena_doubles(arena, (size_t)(grid->nu * g->rows));
+        t->v[d] = ves_arena_doubles(arena, (size_t)(grid->nv * g->columns));
+        if (!t->u[d] || !t->v[d]) return VES_MEMORY;
+        for (int i = 0; i < grid->nu; i++) spline_row(&g->u, grid->u[i], 1, d, t->u[d] + i * g->rows);
+        for (int j = 0; j < grid->nv; j++)
+            spline_row(&g->v, grid->v[j] / 6.283185307179586, 6.283185307179586, d, t->v[d] + j * g->columns);
+    }
+    sheet->tables = t;
+    return VES_OK;
+}
+
+static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
+{
+    const grid_of_points *g = chart->patch->state;
+    ves_sheet *s = chart->state;
+    const tables *t = s->tables;
+    const ves_grid *grid = chart->grid;
+    if (gradient) ves_sheet_clear(chart);
+    if (!ves_sheet_stale(chart)) return;
+    for (int f = 0; f < VES_FIELDS; f++)
+        for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
+            for (int j = 0; j < grid->nv; j++) {
+                const double *row = t->v[VES_FIELD_E[f]] + j * g->columns;
+                for (int r = 0; r < g->rows; r++) {
+                    s->room[r] = 0;
+                    for (int k = 0; k < g->columns; k++)
+                        s->room[r] += row[k] * bound->number[g->points + 3 * (r * g->columns + k) + c];
+                }
+                for (int i = 0; i < grid->nu; i++) {
+                    const double *w = t->u[VES_FIELD_D[f]] + i * g->rows;
+                    double sum = 0;
+                    for (int r = 0; r < g->rows; r++) sum += w[r] * s->room[r];
+                    s->plane[f][c][j * grid->nu + i] = sum;
+                }
+            }
+}
+
+static void gather(ves_chart *chart, const ves_bound *bound, double *number_adjoint)
+{
+    (void)bound;
+    const grid_of_points *g = chart->patch->state;
+    ves_sheet *s = chart->state;
+    const tables *t = s->tables;
+    const ves_grid *grid = chart->grid;
+    for (int f = 0; f < VES_FIELDS; f++)
+        for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
+            for (int j = 0; j < grid->nv; j++) {
+                const double *row = t->v[VES_FIELD_E[f]] + j * g->columns;
+                for (int r = 0; r < g->rows; r++) {
+                    double sum = 0;
+                    for (int i = 0; i < grid->nu; i++)
+                        sum += t->u[VES_FIELD_D[f]][i * g->rows + r] * s->adjoint[f][c][j * grid->nu + i];
+                    for (int k = 0; k < g->columns; k++)
+                        number_adjoint[g->points + 3 * (r * g->columns + k) + c] += row[k] * sum;
+                }
+            }
+}
+
+static long point_room(const ves_patch *patch)
+{
+    const grid_of_points *g = patch->state;
+    return g->rows + g->columns;
+}
+
+static void point(const ves_patch *patch, const ves_bound *bound, int count, const double *u, const double *v,
+                  double *out, double *room)
+{
+    const grid_of_points *g = patch->state;
+    double *ru = room, *rv = room + g->rows;
+    for (int k = 0; k < count; k++)
+        for (int f = 0; f < VES_FIELDS; f++) {
+            spline_row(&g->u, u[k], 1, VES_FIELD_D[f], ru);
+            spline_row(&g->v, v[k] / 6.283185307179586, 6.283185307179586, VES_FIELD_E[f], rv);
+            for (int c = 0; c < 3; c++) {
+                double sum = 0;
+                for (int r = 0; r < g->rows; r++)
+                    for (int m = 0; m < g->columns; m++)
+                        sum += ru[r] * rv[m] * bound->number[g->points + 3 * (r * g->columns + m) + c];
+                out[(f * 3 + c) * count + k] = sum;
+            }
+        }
+}
+
+static const ves_patch_ops POINTS = {.chart = chart_create,
+                                     .bind = ves_sheet_idle_bind,
+                                     .prepare = prepare,
+                                     .sample = ves_sheet_sample,
+                                     .clear = ves_sheet_idle_clear,
+                                     .scatter = ves_sheet_scatter,
+                                     .gather = gather,
+                                     .unbind = ves_sheet_idle_unbind,
+                                     .point_room = point_room,
+                                     .point = point};
+
+ves_status ves_patch_points(int rows, int columns, int points, bool periodic, const ves_bound *bound,
+                            ves_arena *arena, ves_patch **patch)
+{
+    *patch = NULL;
+    grid_of_points *g = ves_arena_take(arena, 1, sizeof *g);
+    ves_patch *made = ves_arena_take(arena, 1, sizeof *made);
+    if (!g || !made) return VES_MEMORY;
+    *g = (grid_of_points){.rows = rows, .columns = columns, .points = points};
+    VES_TRY(spline_create(rows, false, arena, &g->u));
+    VES_TRY(spline_create(columns, periodic, arena, &g->v));
+    *made = (ves_patch){.ops = &POINTS, .periodic = periodic, .state = g};
+    for (int k = 0; k < 3 * rows * columns; k++) made->varies = made->varies || bound->varying[points + k];
+    *patch = made;
+    return VES_OK;
+}

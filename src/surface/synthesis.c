@@ -1,0 +1,199 @@
+#include "surface/synthesis.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef ves_lanes lanes;
+
+#define HOT static inline __attribute__((always_inline))
+
+static double *table(const ves_synthesis *s, int e)
+{
+    return s->table + (size_t)(e * (1 + 2 * s->modes) * s->rows);
+}
+
+/* d^e/dv^e turns cos into n^e times cos, -sin, -cos, and sin into n^e times sin, cos, -sin. Both sit in the
+ * place of the coefficient they multiply. */
+static void fill(const ves_synthesis *s)
+{
+    for (int e = 0; e < 3; e++)
+        for (int j = 0; j < s->rows; j++) {
+            double *t = table(s, e) + j, v = s->grid->v[j];
+            t[0] = e == 0;
+            for (int n = 1; n <= s->modes; n++) {
+                double c = cos(n * v), w = sin(n * v), p = e == 0 ? 1 : e == 1 ? n : (double)n * n;
+                t[(2 * n - 1) * s->rows] = p * (e == 0 ? c : e == 1 ? -w : -c);
+                t[2 * n * s->rows] = p * (e == 0 ? w : e == 1 ? c : -w);
+            }
+        }
+}
+
+ves_status ves_synthesis_create(const ves_grid *grid, int modes, ves_arena *arena, ves_synthesis *s)
+{
+    *s = (ves_synthesis){.grid = grid, .modes = modes, .rows = grid->symmetric ? grid->nv / 4 : grid->nv};
+    s->table = ves_arena_take(arena, (size_t)(3 * (1 + 2 * modes) * s->rows), sizeof(double));
+    if (!s->table) return VES_MEMORY;
+    fill(s);
+    return VES_OK;
+}
+
+/* The symmetric grid: v, pi - v, pi + v, 2 pi - v. Even and odd modes, functions even and odd in v: four
+ * partial sums at a quarter of the nodes give all of them. For e = 1 the coefficient of a cosine multiplies a
+ * sine, and the two swap roles. */
+HOT void fold_rows(const ves_synthesis *s, const double *t, bool swapped, const double *mode, double *out,
+                   int pair)
+{
+    int nu = ves_padded(s->grid->nu), rows = s->rows;
+    lanes ce[4], co[4], se[4], so[4];
+    for (int r = 0; r < pair; r++) {
+        ce[r] = *(const lanes *)mode * t[r];
+        co[r] = se[r] = so[r] = (lanes){0};
+    }
+    const double *m = mode + nu, *tn = t + rows;
+    int n = 1;
+    for (; n + 1 <= s->modes; n += 2, m += 4 * nu, tn += 4 * rows) {
+        lanes a1 = *(const lanes *)m, b1 = *(const lanes *)(m + nu);
+        lanes a2 = *(const lanes *)(m + 2 * nu), b2 = *(const lanes *)(m + 3 * nu);
+        for (int r = 0; r < pair; r++) {
+            co[r] += a1 * tn[r];
+            so[r] += b1 * tn[rows + r];
+            ce[r] += a2 * tn[2 * rows + r];
+            se[r] += b2 * tn[3 * rows + r];
+        }
+    }
+    if (n <= s->modes) {
+        lanes a1 = *(const lanes *)m, b1 = *(const lanes *)(m + nu);
+        for (int r = 0; r < pair; r++) co[r] += a1 * tn[r], so[r] += b1 * tn[rows + r];
+    }
+    for (int r = 0; r < pair; r++) {
+        lanes E = swapped ? se[r] : ce[r], O = swapped ? so[r] : co[r];
+        lanes e = swapped ? ce[r] : se[r], o = swapped ? co[r] : so[r];
+        lanes p = E + O, d = E - O, x = e + o, y = o - e, *w = (lanes *)out + 4 * r;
+        w[0] = p + x;
+        w[1] = d + y;
+        w[2] = d - y;
+        w[3] = p - x;
+    }
+}
+
+HOT void fold_field(const ves_synthesis *s, bool swapped, const double *t, const double *mode,
+                    const ves_tile *tile, double *out)
+{
+    int k = 0;
+    for (; k + 4 <= tile->run; k += 4)
+        fold_rows(s, t + tile->first + k, swapped, mode, out + 4 * k * VES_LANES, 4);
+    for (; k < tile->run; k++) fold_rows(s, t + tile->first + k, swapped, mode, out + 4 * k * VES_LANES, 1);
+}
+
+/* Any grid. */
+static void plain_field(const ves_synthesis *s, const double *t, const double *mode, const ves_tile *tile,
+                        double *out)
+{
+    int nu = ves_padded(s->grid->nu);
+    for (int r = 0; r < tile->rows; r++) {
+        lanes sum = {0};
+        for (int k = 0; k < 1 + 2 * s->modes; k++)
+            sum += *(const lanes *)(mode + k * nu) * t[k * s->rows + tile->row[r]];
+        ((lanes *)out)[r] = sum;
+    }
+}
+
+/* Where the modes of a field begin for this tile. */
+static size_t offset(const ves_synthesis *s, int d, int c, const ves_tile *tile)
+{
+    int nu = ves_padded(s->grid->nu);
+    return (size_t)((d * 3 + c) * (1 + 2 * s->modes) * nu + tile->block);
+}
+
+void ves_synthesis_eval(const ves_synthesis *s, const double *mode, const ves_tile *tile,
+                        ves_tile_planes *out)
+{
+    for (int f = 0; f < VES_FIELDS; f++) {
+        if (!(tile->fields & 1u << f)) continue;
+        int e = VES_FIELD_E[f];
+        const double *t = table(s, e);
+        for (int c = 0; c < 3; c++) {
+            const double *m = mode + offset(s, VES_FIELD_D[f], c, tile);
+            double *o = out->at[f * 3 + c];
+            if (!s->grid->symmetric)
+                plain_field(s, t, m, tile, o);
+            else if (e == 1)
+                fold_field(s, true, t, m, tile, o);
+            else
+                fold_field(s, false, t, m, tile, o);
+        }
+    }
+}
+
+/* The transpose of fold_rows for a run of rows: fold the four nodes first, then one product per mode. */
+HOT void unfold_rows(const ves_synthesis *s, const double *t, bool swapped, const double *in, double *mode,
+                     int run)
+{
+    int nu = ves_padded(s->grid->nu), rows = s->rows;
+    lanes ce[4], co[4], se[4], so[4];
+    for (int r = 0; r < run; r++) {
+        const lanes *g = (const lanes *)in + 4 * r;
+        lanes p = g[0] + g[3], m = g[0] - g[3], d = g[1] + g[2], y = g[1] - g[2];
+        lanes E = p + d, O = p - d, e = m - y, o = m + y;
+        ce[r] = swapped ? e : E, co[r] = swapped ? o : O;
+        se[r] = swapped ? E : e, so[r] = swapped ? O : o;
+    }
+    for (int r = 0; r < run; r++) *(lanes *)mode += ce[r] * t[r];
+    double *m = mode + nu;
+    const double *tn = t + rows;
+    int n = 1;
+    for (; n + 1 <= s->modes; n += 2, m += 4 * nu, tn += 4 * rows) {
+        lanes a1 = *(lanes *)m, b1 = *(lanes *)(m + nu), a2 = *(lanes *)(m + 2 * nu),
+              b2 = *(lanes *)(m + 3 * nu);
+        for (int r = 0; r < run; r++) {
+            a1 += co[r] * tn[r], b1 += so[r] * tn[rows + r];
+            a2 += ce[r] * tn[2 * rows + r], b2 += se[r] * tn[3 * rows + r];
+        }
+        *(lanes *)m = a1, *(lanes *)(m + nu) = b1, *(lanes *)(m + 2 * nu) = a2, *(lanes *)(m + 3 * nu) = b2;
+    }
+    if (n <= s->modes) {
+        lanes a1 = *(lanes *)m, b1 = *(lanes *)(m + nu);
+        for (int r = 0; r < run; r++) a1 += co[r] * tn[r], b1 += so[r] * tn[rows + r];
+        *(lanes *)m = a1, *(lanes *)(m + nu) = b1;
+    }
+}
+
+HOT void unfold_field(const ves_synthesis *s, bool swapped, const double *t, const double *in,
+                      const ves_tile *tile, double *mode)
+{
+    int k = 0;
+    for (; k + 4 <= tile->run; k += 4)
+        unfold_rows(s, t + tile->first + k, swapped, in + 4 * k * VES_LANES, mode, 4);
+    for (; k < tile->run; k++) unfold_rows(s, t + tile->first + k, swapped, in + 4 * k * VES_LANES, mode, 1);
+}
+
+static void plain_transpose(const ves_synthesis *s, const double *t, const double *in, const ves_tile *tile,
+                            double *mode)
+{
+    int nu = ves_padded(s->grid->nu);
+    for (int k = 0; k < 1 + 2 * s->modes; k++) {
+        lanes sum = *(lanes *)(mode + k * nu);
+        for (int r = 0; r < tile->rows; r++) sum += ((const lanes *)in)[r] * t[k * s->rows + tile->row[r]];
+        *(lanes *)(mode + k * nu) = sum;
+    }
+}
+
+void ves_synthesis_gradient(const ves_synthesis *s, const ves_tile *tile, const ves_tile_planes *adjoint,
+                            double *mode_adjoint)
+{
+    for (int f = 0; f < VES_FIELDS; f++) {
+        if (!(tile->fields & 1u << f)) continue;
+        int e = VES_FIELD_E[f];
+        const double *t = table(s, e);
+        for (int c = 0; c < 3; c++) {
+            double *m = mode_adjoint + offset(s, VES_FIELD_D[f], c, tile);
+            const double *in = adjoint->at[f * 3 + c];
+            if (!s->grid->symmetric)
+                plain_transpose(s, t, in, tile, m);
+            else if (e == 1)
+                unfold_field(s, true, t, in, tile, m);
+            else
+                unfold_field(s, false, t, in, tile, m);
+        }
+    }
+}

@@ -1,0 +1,41 @@
+#include "surface/tile.h"
+
+const int VES_FIELD_D[VES_FIELDS] = {0, 1, 0, 2, 1, 0}, VES_FIELD_E[VES_FIELDS] = {0, 0, 1, 0, 1, 2};
+
+/* What is cut along v: quarter rows of a symmetric grid, else rows. */
+static int pieces(const ves_grid *grid)
+{
+    return grid->symmetric ? grid->nv / 4 : grid->nv;
+}
+
+static int run_length(const ves_grid *grid, int rows)
+{
+    return grid->symmetric ? rows / 4 : rows;
+}
+
+int ves_tile_count(const ves_grid *grid, int rows)
+{
+    int run = run_length(grid, rows);
+    return (pieces(grid) + run - 1) / run * (ves_padded(grid->nu) / VES_LANES);
+}
+
+void ves_tile_at(const ves_grid *grid, int rows, int index, unsigned fields, ves_tile *tile)
+{
+    int run = run_length(grid, rows), all = pieces(grid), runs = (all + run - 1) / run;
+    tile->fields = fields;
+    tile->block = index / runs * VES_LANES;
+    tile->lanes = grid->nu - tile->block < VES_LANES ? grid->nu - tile->block : VES_LANES;
+    tile->first = index % runs * run;
+    tile->run = all - tile->first < run ? all - tile->first : run;
+    tile->rows = grid->symmetric ? 4 * tile->run : tile->run;
+    int half = grid->nv / 2;
+    for (int k = 0; k < tile->run; k++) {
+        int q = tile->first + k;
+        if (grid->symmetric) {
+            tile->row[4 * k] = q, tile->row[4 * k + 1] = half - 1 - q;
+            tile->row[4 * k + 2] = half + q, tile->row[4 * k + 3] = grid->nv - 1 - q;
+        } else {
+            tile->row[k] = q;
+        }
+    }
+}

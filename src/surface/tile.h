@@ -1,0 +1,49 @@
+/* Tiles: a patch is sampled a small piece at a time, 8 nodes along u by at most 32 rows along v, so that its
+ * six fields and all that is derived from them stay in the first-level cache; only the planes that a measure
+ * asked for are written out. (Storing all 18 planes of 16 x 32 nodes costs more time than computing them.)
+ *
+ * Inside a tile node (row r, lane i) of plane p is at[p][r * VES_LANES + i]. Lanes beyond the grid repeat its
+ * last u. */
+#ifndef VES_SURFACE_TILE_H
+#define VES_SURFACE_TILE_H
+
+#include "surface/grid.h"
+
+enum { VES_FIELD_X, VES_FIELD_U, VES_FIELD_V, VES_FIELD_UU, VES_FIELD_UV, VES_FIELD_VV, VES_FIELDS };
+
+enum {
+    VES_TILE_ROWS = 32,
+    VES_TILE_STRIDE = (VES_TILE_ROWS + 1) * VES_LANES
+}; /* the odd row keeps planes out of one cache set */
+
+/* A register of nodes along u. GCC's vector extension: on narrower machines it becomes several registers. */
+typedef double ves_lanes __attribute__((vector_size(VES_LANES * sizeof(double))));
+
+/* Which derivative each field is: along u and along v. */
+extern const int VES_FIELD_D[VES_FIELDS], VES_FIELD_E[VES_FIELDS];
+
+typedef struct ves_tile {
+    int block; /* first node along u */
+    int lanes; /* how many of the 8 are nodes of the grid */
+    int first,
+        run; /* of a symmetric grid: quarter rows first .. first + run - 1, four rows each; else plain rows */
+    int rows;               /* rows in the tile */
+    int row[VES_TILE_ROWS]; /* their index along v */
+    unsigned fields;        /* bit f: field f is filled */
+} ves_tile;
+
+typedef struct ves_tile_planes {
+    _Alignas(64) double at[VES_FIELDS * 3][VES_TILE_STRIDE];
+} ves_tile_planes;
+
+/* Cuts a grid into tiles of at most `rows` rows; number of tiles, and the k-th. */
+int ves_tile_count(const ves_grid *grid, int rows);
+void ves_tile_at(const ves_grid *grid, int rows, int index, unsigned fields, ves_tile *tile);
+
+/* nu rounded up to whole registers. */
+static inline int ves_padded(int nu)
+{
+    return (nu + VES_LANES - 1) / VES_LANES * VES_LANES;
+}
+
+#endif

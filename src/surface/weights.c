@@ -1,0 +1,328 @@
+#include "surface/weights.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+/* Below the switch the solutions are spanned by the centred fundamental solutions, t = u - 1/2, mu = lam^2,
+ *     c_k = (1/k!) d^k/dmu^k cosh(sqrt(mu) t),      s_k = (1/k!) d^k/dmu^k sinh(sqrt(mu) t) / sqrt(mu),
+ * series of positive terms, so nothing cancels and lam = 0 is not special:
+ *     c_k' = mu s_k + s_{k-1},   s_k' = c_k,   dc_k/dmu = (k+1) c_{k+1}.
+ * Above it by the decaying ones f_k = u^k e^{-lam u} and their mirror images g_k(u) = f_k(1-u):
+ *     f_k' = k f_{k-1} - lam f_k,   df_k/dlam = -f_{k+1};
+ * never e^{+lam u}, which [Ugail 2011, eqs 4.12-4.14] use and which overflows from lam = 709 on.
+ * In both, the derivative with respect to lam of member k is a multiple of member k + 1: one more member
+ * gives it.
+ *
+ * The basis is evaluated at the wanted places and, behind them, at the knots of the conditions: one pass
+ * serves both. */
+enum { FAMILY = VES_POWER_MAX + 1, TERMS = 14, K = VES_CONDITIONS_MAX, LANES = 8 };
+
+static const double SWITCH = 1.5; /* times N */
+
+#define HOT static inline __attribute__((always_inline))
+
+/* SERIES[k][odd][i] = C(i+k, k) / (2(i+k) + odd)!: terms up to 14 leave < 1e-17 for lam |t| <= 1.5. */
+#define F2  2.
+#define F3  6.
+#define F4  24.
+#define F5  120.
+#define F6  720.
+#define F7  5040.
+#define F8  40320.
+#define F9  362880.
+#define F10 3628800.
+#define F11 39916800.
+#define F12 479001600.
+#define F13 6227020800.
+#define F14 87178291200.
+#define F15 1307674368e3
+#define F16 20922789888e3
+#define F17 355687428096e3
+#define F18 6402373705728e3
+#define F19 121645100408832e3
+#define F20 2432902008176640e3
+#define F21 51090942171709440e3
+#define F22 1124000727777607680e3
+#define F23 25852016738884976640e3
+#define F24 620448401733239439360e3
+#define F25 15511210043330985984e6
+#define F26 403291461126605635584e6
+#define F27 10888869450418352160768e6
+#define F28 304888344611713860501504e6
+#define F29 8841761993739701954543616e6
+#define F30 265252859812191058636308480e6
+#define F31 8222838654177922817725562880e6
+static const double SERIES[FAMILY][2][TERMS] = {
+    {{1, 1 / F2, 1 / F4, 1 / F6, 1 / F8, 1 / F10, 1 / F12, 1 / F14, 1 / F16, 1 / F18, 1 / F20, 1 / F22,
+      1 / F24, 1 / F26},
+     {1, 1 / F3, 1 / F5, 1 / F7, 1 / F9, 1 / F11, 1 / F13, 1 / F15, 1 / F17, 1 / F19, 1 / F21, 1 / F23,
+      1 / F25, 1 / F27}},
+    {{1 / F2, 2 / F4, 3 / F6, 4 / F8, 5 / F10, 6 / F12, 7 / F14, 8 / F16, 9 / F18, 10 / F20, 11 / F22,
+      12 / F24, 13 / F26, 14 / F28},
+     {1 / F3, 2 / F5, 3 / F7, 4 / F9, 5 / F11, 6 / F13, 7 / F15, 8 / F17, 9 / F19, 10 / F21, 11 / F23,
+      12 / F25, 13 / F27, 14 / F29}},
+    {{1 / F4, 3 / F6, 6 / F8, 10 / F10, 15 / F12, 21 / F14, 28 / F16, 36 / F18, 45 / F20, 55 / F22, 66 / F24,
+      78 / F26, 91 / F28, 105 / F30},
+     {1 / F5, 3 / F7, 6 / F9, 10 / F11, 15 / F13, 21 / F15, 28 / F17, 36 / F19, 45 / F21, 55 / F23, 66 / F25,
+      78 / F27, 91 / F29, 105 / F31}}};
+
+/* Everything along u has `width` places: nu wanted ones, 2N knots, padding to whole registers. */
+typedef struct places {
+    int nu, width;
+    double *u, *mirrored;     /* u and 1 - u */
+    double *left, *right;     /* e^{-lam u}, e^{-lam (1-u)} of the mode at hand */
+    double *left_1, *right_1; /* of mode 1: their powers are all the others */
+    double *basis;            /* [2][FAMILY][3][width]: family, member, derivative */
+} places;
+
+HOT double *plane(const places *p, int family, int k, int d)
+{
+    return p->basis + (size_t)(((family * FAMILY + k) * 3 + d) * p->width);
+}
+
+static int width(int nu)
+{
+    return (nu + K + LANES - 1) / LANES * LANES;
+}
+
+long ves_weights_room(int nu)
+{
+    return (2L * FAMILY * 3 + 6) * width(nu);
+}
+
+static places places_init(const ves_layout *layout, int nu, const double *u, double *room)
+{
+    int w = width(nu);
+    places p = {.nu = nu, .width = w, .basis = room + 6 * w};
+    double **array[] = {&p.u, &p.mirrored, &p.left, &p.right, &p.left_1, &p.right_1};
+    for (int k = 0; k < 6; k++) *array[k] = room + k * w;
+    for (int i = 0; i < w; i++) {
+        int j = i - nu;
+        p.u[i] = i < nu ? u[i] : j < 2 * layout->power ? layout->knot[j].u : 0.5;
+        p.mirrored[i] = 1 - p.u[i];
+    }
+    return p;
+}
+
+/* family 0: c_k, family 1: s_k, with first and second derivatives. */
+HOT void centred(const places *p, double lam, int members)
+{
+    double mu = lam * lam;
+    for (int k = 0; k < members; k++)
+        for (int odd = 0; odd < 2; odd++) {
+            double *out = plane(p, odd, k, 0);
+            const double *c = SERIES[k][odd];
+#pragma omp simd
+            for (int i = 0; i < p->width; i++) {
+                double t = p->u[i] - 0.5, tt = t * t, z = mu * tt, z2 = z * z;
+                double even = c[TERMS - 2],
+                       rest = c[TERMS - 1]; /* two Horner chains in z^2: half the latency */
+                for (int m = TERMS - 4; m >= 0; m -= 2) even = even * z2 + c[m], rest = rest * z2 + c[m + 1];
+                double sum = even + z * rest;
+                out[i] = sum * (odd ? t : 1) * (k > 0 ? tt : 1) * (k > 1 ? tt : 1);
+            }
+        }
+    for (int k = 0; k < members; k++) {
+        const double *c = plane(p, 0, k, 0), *s = plane(p, 1, k, 0);
+        const double *c1 = plane(p, 0, k ? k - 1 : 0, 0), *s1 = plane(p, 1, k ? k - 1 : 0, 0);
+        double *cu = plane(p, 0, k, 1), *su = plane(p, 1, k, 1), *cuu = plane(p, 0, k, 2),
+               *suu = plane(p, 1, k, 2);
+        double lower = k > 0;
+#pragma omp simd
+        for (int i = 0; i < p->width; i++) {
+            cu[i] = suu[i] = mu * s[i] + lower * s1[i];
+            cuu[i] = mu * c[i] + lower * c1[i];
+            su[i] = c[i];
+        }
+    }
+}
+
+/* One family of decaying solutions; sign -1: the mirror image. */
+HOT void decaying(const places *p, int family, double lam, int members)
+{
+    double sign = family ? -1 : 1;
+    const double *u = family ? p->mirrored : p->u, *e = family ? p->right : p->left;
+    for (int k = 0; k < members; k++) {
+        double *f = plane(p, family, k, 0), *fu = plane(p, family, k, 1), *fuu = plane(p, family, k, 2);
+        const double *g = plane(p, family, k ? k - 1 : 0, 0), *gu = plane(p, family, k ? k - 1 : 0, 1);
+        double lower = sign * k;
+#pragma omp simd
+        for (int i = 0; i < p->width; i++) {
+            f[i] = k ? u[i] * g[i] : e[i];
+            fu[i] = lower * g[i] - sign * lam * f[i];
+            fuu[i] = lower * gu[i] - sign * lam * fu[i];
+        }
+    }
+}
+
+HOT bool small_lam(int N, double lam)
+{
+    return lam <= SWITCH * N;
+}
+
+HOT void basis(const places *p, int N, double lam, int members)
+{
+    if (small_lam(N, lam)) {
+        centred(p, lam, members);
+    } else {
+        decaying(p, 0, lam, members);
+        decaying(p, 1, lam, members);
+    }
+}
+
+/* d/dlam of member k is this times member k + 1. */
+HOT double lam_factor(int N, double lam, int k)
+{
+    return small_lam(N, lam) ? 2 * lam * (k + 1) : -1;
+}
+
+/* Gauss-Jordan with partial pivoting on an equilibrated matrix; false when a pivot vanishes. */
+HOT bool invert(int n, double a[K][2 * K])
+{
+    for (int r = 0; r < n; r++) {
+        double largest = 0;
+        for (int c = 0; c < n; c++) largest = fabs(a[r][c]) > largest ? fabs(a[r][c]) : largest;
+        double scale = 1 / largest;
+        for (int c = 0; c < n; c++) a[r][c] *= scale, a[r][n + c] = r == c ? scale : 0;
+    }
+    for (int p = 0; p < n; p++) {
+        int best = p;
+        for (int r = p + 1; r < n; r++)
+            if (fabs(a[r][p]) > fabs(a[best][p])) best = r;
+        if (!(fabs(a[best][p]) > 1e-13)) return false;
+        for (int c = 0; c < 2 * n && best != p; c++) {
+            double swap = a[p][c];
+            a[p][c] = a[best][c], a[best][c] = swap;
+        }
+        double pivot = 1 / a[p][p];
+        for (int c = 0; c < 2 * n; c++) a[p][c] *= pivot;
+        for (int r = 0; r < n; r++) {
+            double f = a[r][p];
+            if (r == p) continue;
+            for (int c = 0; c < 2 * n; c++) a[r][c] -= f * a[p][c];
+        }
+    }
+    return true;
+}
+
+/* The condition matrix: row j is condition j applied to each member; its inverse in the right half.
+ * derivative: the matrix differentiated with respect to lam. */
+HOT bool conditions(const ves_layout *layout, const places *p, int N, double lam, double matrix[K][2 * K],
+                    double derivative[K][K])
+{
+    for (int j = 0; j < 2 * N; j++) {
+        int d = layout->knot[j].derivative, at = p->nu + j;
+        for (int m = 0; m < 2 * N; m++) {
+            matrix[j][m] = plane(p, m / N, m % N, d)[at];
+            if (derivative) derivative[j][m] = lam_factor(N, lam, m % N) * plane(p, m / N, m % N + 1, d)[at];
+        }
+    }
+    return invert(2 * N, matrix);
+}
+
+/* weight_lam = (basis' - weight matrix') matrix^-1. */
+HOT void combine_lam(const places *p, int N, double lam, double matrix[K][2 * K], double derivative[K][K],
+                     const double *weight, double *weight_lam)
+{
+    int n = 2 * N, nu = p->nu;
+    double product[K][K]; /* matrix' matrix^-1 */
+    for (int r = 0; r < n; r++)
+        for (int j = 0; j < n; j++) {
+            product[r][j] = 0;
+            for (int m = 0; m < n; m++) product[r][j] += derivative[r][m] * matrix[m][n + j];
+        }
+    for (int d = 0; d < 3; d++)
+        for (int j = 0; j < n; j++) {
+            double *out = weight_lam + (d * n + j) * nu;
+            for (int m = 0; m < n; m++) {
+                const double *next = plane(p, m / N, m % N + 1, d), *w = weight + (d * n + m) * nu;
+                double f = lam_factor(N, lam, m % N) * matrix[m][n + j], g = product[m][j];
+#pragma omp simd
+                for (int i = 0; i < nu; i++) out[i] = (m ? out[i] : 0) + f * next[i] - g * w[i];
+            }
+        }
+}
+
+/* weight = basis matrix^-1 */
+HOT void combine(const ves_layout *layout, const places *p, int N, double lam, double *weight,
+                 double *weight_lam)
+{
+    int n = 2 * N, nu = p->nu;
+    double matrix[K][2 * K], derivative[K][K];
+    if (!conditions(layout, p, N, lam, matrix, weight_lam ? derivative : NULL)) {
+        /* ruled out by ves_layout_check; never leave rubbish behind */
+        memset(weight, 0, sizeof(double) * (size_t)(3 * n * nu));
+        if (weight_lam) memset(weight_lam, 0, sizeof(double) * (size_t)(3 * n * nu));
+        return;
+    }
+    for (int d = 0; d < 3; d++)
+        for (int j = 0; j < n; j++) {
+            double *out = weight + (d * n + j) * nu;
+            for (int m = 0; m < n; m++) {
+                const double *b = plane(p, m / N, m % N, d);
+                double f = matrix[m][n + j];
+#pragma omp simd
+                for (int i = 0; i < nu; i++) out[i] = (m ? out[i] : 0) + f * b[i];
+            }
+        }
+    if (weight_lam) combine_lam(p, N, lam, matrix, derivative, weight, weight_lam);
+}
+
+long ves_weights_size(const ves_layout *layout, int modes, int nu)
+{
+    return (long)(modes + 1) * 3 * 2 * layout->power * nu;
+}
+
+void ves_weights_mode(const ves_layout *layout, double lam, int nu, const double *u, double *weight,
+                      double *weight_lam, double *room)
+{
+    int N = layout->power;
+    places p = places_init(layout, nu, u, room);
+    for (int i = 0; i < p.width; i++) p.left[i] = exp(-lam * p.u[i]), p.right[i] = exp(-lam * p.mirrored[i]);
+    basis(&p, N, lam, N + (weight_lam != NULL));
+    combine(layout, &p, N, lam, weight, weight_lam);
+}
+
+HOT void bind(const ves_layout *layout, int N, double a, int modes, const places *p, double *table,
+              double *table_a)
+{
+    int row = 3 * 2 * N * p->nu;
+    for (int i = 0; i < p->width; i++) {
+        p->left[i] = p->right[i] = 1;
+        p->left_1[i] = exp(-a * p->u[i]), p->right_1[i] = exp(-a * p->mirrored[i]);
+    }
+    for (int n = 0; n <= modes; n++) {
+        double *weight_a = table_a ? table_a + (size_t)row * (size_t)n : NULL;
+        basis(p, N, a * n, N + (table_a != NULL));
+        combine(layout, p, N, a * n, table + (size_t)row * (size_t)n, weight_a);
+        for (int k = 0; weight_a && k < row; k++) weight_a[k] *= n; /* d/da = n d/dlam */
+        for (int i = 0; i < p->width; i++)
+            p->left[i] *= p->left_1[i], p->right[i] *= p->right_1[i]; /* e^{-a n u} */
+    }
+}
+
+void ves_weights_bind(const ves_layout *layout, double a, int modes, int nu, const double *u, double *table,
+                      double *table_a, double *room)
+{
+    places p = places_init(layout, nu, u, room);
+    if (layout->power == 1)
+        bind(layout, 1, a, modes, &p, table, table_a);
+    else
+        bind(layout, 2, a, modes, &p, table, table_a);
+}
+
+ves_status ves_layout_check(const ves_layout *layout)
+{
+    static const double lam[] = {0, 0.1, 1, 3, 10, 30, 100, 300};
+    double room[(2 * FAMILY * 3 + 6) * 2 * LANES], matrix[K][2 * K];
+    places p = places_init(layout, 0, NULL, room);
+    for (size_t k = 0; k < sizeof lam / sizeof *lam; k++) {
+        for (int i = 0; i < p.width; i++) {
+            p.left[i] = exp(-lam[k] * p.u[i]), p.right[i] = exp(-lam[k] * p.mirrored[i]);
+        }
+        basis(&p, layout->power, lam[k], layout->power);
+        if (!conditions(layout, &p, layout->power, lam[k], matrix, NULL)) return VES_SINGULAR;
+    }
+    return VES_OK;
+}

@@ -1,0 +1,207 @@
+/* Weight tables against an oracle: the same cardinal functions from the textbook basis u^k e^{+-lam u} (u^k for lam = 0), solved with
+ * MPFR by Gaussian elimination. That basis loses about 3 lam bits (and 20 powers of small lam): `bits` leaves hundreds. */
+#include <criterion/criterion.h>
+#include <math.h>
+#include <mpfr.h>
+#include <stdlib.h>
+
+#include "surface/weights.h"
+
+enum { PLACES = 11, MOST = 4 };
+
+static long bits(double lam)
+{
+    return 800 + (long)(5 * lam);
+}
+
+static const ves_layout LAYOUT[] = {
+    {1, {{0, 0}, {1, 0}}},
+    {1, {{0, 0}, {1, 1}}},
+    {1, {{0, 1}, {1, 0}}},
+    {2, {{0, 0}, {0, 1}, {1, 0}, {1, 1}}},
+    {2, {{1, 1}, {0, 0}, {1, 0}, {0, 1}}}, /* the order of the conditions is the caller's */
+};
+enum { LAYOUTS = sizeof LAYOUT / sizeof *LAYOUT };
+
+/* d-th derivative of member m of the textbook basis at u: u^k e^{s lam u}, k = m / 2, s = +-1 (lam > 0); u^m (lam = 0). */
+static void member(int m, int d, double lam, double u, mpfr_t out)
+{
+    mpfr_t x, term;
+    mpfr_inits2(bits(lam), x, term, (mpfr_ptr)0);
+    int k = lam > 0 ? m / 2 : m;
+    double rate = lam > 0 ? (m % 2 ? -lam : lam) : 0;
+    mpfr_set_ui(out, 0, MPFR_RNDN);
+    for (int j = 0; j <= d; j++) { /* Leibniz: C(d,j) (u^k)^(j) rate^(d-j) */
+        if (j > k || (d > j && rate == 0)) continue;
+        double c = j == 0 || j == d ? 1 : d == 2 ? 2 : 3; /* C(d, j) for d <= 3 */
+        for (int f = 0; f < j; f++) c *= k - f;
+        mpfr_set_d(x, u, MPFR_RNDN);
+        mpfr_pow_ui(term, x, (unsigned long)(k - j), MPFR_RNDN);
+        for (int f = 0; f < d - j; f++) mpfr_mul_d(term, term, rate, MPFR_RNDN);
+        mpfr_mul_d(term, term, c, MPFR_RNDN);
+        mpfr_add(out, out, term, MPFR_RNDN);
+    }
+    mpfr_set_d(x, rate, MPFR_RNDN);
+    mpfr_mul_d(x, x, u, MPFR_RNDN);
+    mpfr_exp(x, x, MPFR_RNDN);
+    mpfr_mul(out, out, x, MPFR_RNDN);
+    mpfr_clears(x, term, (mpfr_ptr)0);
+}
+
+typedef struct oracle {
+    int n;
+    mpfr_t a[MOST][2 * MOST]; /* the condition matrix and, after solving, its inverse in the right half */
+} oracle;
+
+static void oracle_solve(oracle *o, const ves_layout *layout, double lam)
+{
+    int n = o->n = 2 * layout->power;
+    mpfr_t f;
+    mpfr_init2(f, bits(lam));
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < 2 * n; c++) {
+            mpfr_init2(o->a[r][c], bits(lam));
+            if (c < n) member(c, layout->knot[r].derivative, lam, layout->knot[r].u, o->a[r][c]);
+            else mpfr_set_ui(o->a[r][c], c - n == r, MPFR_RNDN);
+        }
+    for (int p = 0; p < n; p++) {
+        int best = p;
+        for (int r = p + 1; r < n; r++)
+            if (mpfr_cmpabs(o->a[r][p], o->a[best][p]) > 0) best = r;
+        for (int c = 0; c < 2 * n; c++) mpfr_swap(o->a[p][c], o->a[best][c]);
+        for (int c = 2 * n - 1; c >= p; c--) mpfr_div(o->a[p][c], o->a[p][c], o->a[p][p], MPFR_RNDN);
+        for (int r = 0; r < n; r++)
+            for (int c = 2 * n - 1; r != p && c >= p; c--) {
+                mpfr_mul(f, o->a[r][p], o->a[p][c], MPFR_RNDN);
+                mpfr_sub(o->a[r][c], o->a[r][c], f, MPFR_RNDN);
+            }
+    }
+    mpfr_clear(f);
+}
+
+static double oracle_value(const oracle *o, int j, int d, double lam, double u)
+{
+    mpfr_t sum, term;
+    mpfr_inits2(bits(lam), sum, term, (mpfr_ptr)0);
+    mpfr_set_ui(sum, 0, MPFR_RNDN);
+    for (int m = 0; m < o->n; m++) {
+        member(m, d, lam, u, term);
+        mpfr_mul(term, term, o->a[m][o->n + j], MPFR_RNDN);
+        mpfr_add(sum, sum, term, MPFR_RNDN);
+    }
+    double value = mpfr_get_d(sum, MPFR_RNDN);
+    mpfr_clears(sum, term, (mpfr_ptr)0);
+    return value;
+}
+
+static void oracle_clear(oracle *o)
+{
+    for (int r = 0; r < o->n; r++)
+        for (int c = 0; c < 2 * o->n; c++) mpfr_clear(o->a[r][c]);
+}
+
+static void places(double *u)
+{
+    static const double place[PLACES] = {0, 0.003, 0.0371, 0.1, 0.25, 0.5, 0.7183, 0.85, 0.9629, 0.999, 1};
+    for (int i = 0; i < PLACES; i++) u[i] = place[i];
+}
+
+/* The bar: 1e-12 of the largest value of the cardinal function, times max(1, lam)^d for derivatives. */
+static void check(const ves_layout *layout, double lam)
+{
+    int n = 2 * layout->power;
+    double u[PLACES], weight[3 * MOST * PLACES], room[1000];
+    places(u);
+    cr_assert(ves_weights_room(PLACES) <= 1000);
+    ves_weights_mode(layout, lam, PLACES, u, weight, NULL, room);
+    oracle o;
+    oracle_solve(&o, layout, lam);
+    for (int j = 0; j < n; j++) {
+        double largest = 0;
+        for (int i = 0; i < PLACES; i++) largest = fmax(largest, fabs(oracle_value(&o, j, 0, lam, u[i])));
+        for (int d = 0; d < 3; d++)
+            for (int i = 0; i < PLACES; i++) {
+                double got = weight[(d * n + j) * PLACES + i], want = oracle_value(&o, j, d, lam, u[i]);
+                double unit = largest * pow(fmax(1, lam), d);
+                cr_assert(fabs(got - want) <= 1e-12 * unit, "power %d lam %g condition %d derivative %d u %g: got %.17g want %.17g (%.2g)",
+                          layout->power, lam, j, d, u[i], got, want, fabs(got - want) / unit);
+            }
+    }
+    oracle_clear(&o);
+}
+
+Test(weights, agree_with_the_oracle_for_every_lam_up_to_1000)
+{
+    static const double lam[] = {0,   1e-6, 1e-3, 0.01, 0.1, 0.3, 0.7, 1,  1.4999, 1.5, 1.5001, 2,    2.5,  2.9999,
+                                 3.0, 3.01, 4,    6,    8,   12,  20,  30, 50,     80,  150,    300,  500,  800, 1000};
+    for (int l = 0; l < LAYOUTS; l++)
+        for (size_t k = 0; k < sizeof lam / sizeof *lam; k++) check(&LAYOUT[l], lam[k]);
+}
+
+/* The table of all modes uses powers of e^{-a u}: the same numbers as mode by mode, to the rounding of those powers. */
+Test(weights, table_agrees_with_single_modes)
+{
+    enum { MODES = 40 };
+    for (int l = 0; l < LAYOUTS; l++)
+        for (double a = 0.01; a < 30; a *= 3.7) {
+            const ves_layout *layout = &LAYOUT[l];
+            int row = 3 * 2 * layout->power * PLACES;
+            double u[PLACES], one[3 * MOST * PLACES], room[1000], *table = malloc(sizeof *table * (size_t)((MODES + 1) * row));
+            places(u);
+            ves_weights_bind(layout, a, MODES, PLACES, u, table, NULL, room);
+            for (int n = 0; n <= MODES; n++) {
+                ves_weights_mode(layout, a * n, PLACES, u, one, NULL, room);
+                for (int k = 0; k < row; k++) {
+                    double d = k / (2 * layout->power * PLACES), unit = pow(fmax(1, a * n), d);
+                    cr_assert(fabs(one[k] - table[n * row + k]) <= 1e-13 * unit, "a %g mode %d entry %d: %.17g %.17g", a, n, k,
+                              one[k], table[n * row + k]);
+                }
+            }
+            free(table);
+        }
+}
+
+/* d/dlam by forward differentiation against a central difference of fourth order: truncation h^4, rounding 1e-15 / h. */
+Test(weights, derivative_with_respect_to_lam)
+{
+    for (int l = 0; l < LAYOUTS; l++)
+        for (double lam = 0.05; lam < 700; lam *= 2.3) {
+            const ves_layout *layout = &LAYOUT[l];
+            int row = 3 * 2 * layout->power * PLACES;
+            double u[PLACES], w[5][3 * MOST * PLACES], slope[3 * MOST * PLACES], room[1000], h = 2e-3 * lam;
+            places(u);
+            bool across = (lam - 2.1 * h < 1.5 * layout->power) != (lam + 2.1 * h < 1.5 * layout->power);
+            for (int k = 0; k < 5; k++)
+                ves_weights_mode(layout, lam + (k - 2) * h, PLACES, u, w[k], k == 2 ? slope : NULL, room);
+            for (int k = 0; k < row; k++) {
+                double d = k / (2 * layout->power * PLACES), unit = pow(fmax(1, lam), d) / fmin(lam, 1);
+                double want = (w[0][k] - 8 * w[1][k] + 8 * w[3][k] - w[4][k]) / (12 * h);
+                cr_assert(fabs(slope[k] - want) <= (across ? 1e-8 : 1e-9) * unit, "lam %g entry %d: got %.12g want %.12g", lam, k,
+                          slope[k], want);
+            }
+        }
+}
+
+Test(weights, layouts_that_determine_nothing_are_refused)
+{
+    ves_layout slopes = {1, {{0, 1}, {1, 1}}}, twice = {2, {{0, 0}, {0, 0}, {1, 0}, {1, 1}}};
+    cr_assert_eq(ves_layout_check(&slopes), VES_SINGULAR);
+    cr_assert_eq(ves_layout_check(&twice), VES_SINGULAR);
+    for (int l = 0; l < LAYOUTS; l++) cr_assert_eq(ves_layout_check(&LAYOUT[l]), VES_OK);
+}
+
+/* A straight line (power 1) and a cubic (power 2) at lam = 0: a = 0 is legal. */
+Test(weights, mode_zero_is_polynomial)
+{
+    double u[PLACES], w[3 * MOST * PLACES], room[1000];
+    places(u);
+    ves_weights_mode(&LAYOUT[0], 0, PLACES, u, w, NULL, room);
+    for (int i = 0; i < PLACES; i++) {
+        cr_assert(fabs(w[i] - (1 - u[i])) < 4e-16 && fabs(w[PLACES + i] - u[i]) < 4e-16);
+    }
+    ves_weights_mode(&LAYOUT[3], 0, PLACES, u, w, NULL, room);
+    for (int i = 0; i < PLACES; i++) {
+        double t = u[i], h = 1 - 3 * t * t + 2 * t * t * t; /* Hermite's cubic of a unit value at u = 0 */
+        cr_assert(fabs(w[i] - h) < 2e-15, "u %g: %.17g %.17g", t, w[i], h);
+    }
+}
