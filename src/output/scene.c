@@ -1,0 +1,355 @@
+#include "output/scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/text.h"
+
+enum { REFINE = 12, AROUND = 24, PIECES = 1000000 };
+
+int ves_scene_quantity(const char *word)
+{
+    return word ? ves_words_find("patch|H|K|k1|k2", word) : -1;
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static double normalise(double a[3])
+{
+    double size = sqrt(dot(a, a));
+    for (int c = 0; c < 3 && size > 0; c++) a[c] /= size;
+    return size;
+}
+
+static void cross(const double a[3], const double b[3], double out[3])
+{
+    for (int c = 0; c < 3; c++) out[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
+}
+
+static int nodes(const ves_figure_patch *p)
+{
+    return p->rows * p->columns;
+}
+
+/* The axis along which the ends of the patches are strung; z when they are not (size: of the shape). */
+static int natural_up(const ves_figure *figure, double size)
+{
+    double span[3] = {0}, first[3], last[3];
+    for (int k = 0; k < figure->patches; k++) {
+        ves_figure_middle(&figure->patch[k], 0, first);
+        ves_figure_middle(&figure->patch[k], 1, last);
+        for (int c = 0; c < 3; c++) span[c] += fabs(last[c] - first[c]);
+    }
+    int up = 2;
+    for (int c = 1; c >= 0; c--)
+        if (span[c] > span[up] * (1 + 1e-6) + 1e-3 * size) up = c;
+    return up;
+}
+
+static void camera_aim(ves_camera *camera, const ves_figure *figure, const ves_view *view, double size)
+{
+    int up = view->up < 0 || view->up > 2 ? natural_up(figure, size) : view->up, e1 = (up + 1) % 3,
+        e2 = (up + 2) % 3;
+    double ca = cos(view->azimuth), sa = sin(view->azimuth), ch = cos(view->height_angle);
+    camera->toward[e1] = ch * ca, camera->toward[e2] = ch * sa, camera->toward[up] = sin(view->height_angle);
+    camera->right[e1] = -sa, camera->right[e2] = ca, camera->right[up] = 0;
+    cross(camera->toward, camera->right, camera->up);
+}
+
+/* Middle of the bounding box and half its diagonal. */
+static double bounds(const ves_figure *figure, double middle[3])
+{
+    double lo[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, half[3];
+    for (int k = 0; k < figure->patches; k++) {
+        for (int c = 0; c < 3; c++) {
+            for (int s = 0; s < nodes(&figure->patch[k]); s++) {
+                double x = figure->patch[k].X[c][s];
+                if (isfinite(x)) lo[c] = fmin(lo[c], x), hi[c] = fmax(hi[c], x);
+            }
+        }
+    }
+    for (int c = 0; c < 3; c++) {
+        bool any = lo[c] <= hi[c];
+        middle[c] = any ? (lo[c] + hi[c]) / 2 : 0;
+        half[c] = any ? (hi[c] - lo[c]) / 2 : 0;
+    }
+    double size = sqrt(dot(half, half));
+    return size > 0 ? size : 1;
+}
+
+/* Paper coordinates; returns how far the point is towards the viewer. */
+static double project(const ves_camera *camera, const double x[3], double *px, double *py)
+{
+    double d[3] = {x[0] - camera->target[0], x[1] - camera->target[1], x[2] - camera->target[2]};
+    double depth = dot(d, camera->toward);
+    double near = camera->distance > 0 ? camera->distance / (camera->distance - depth) : 1;
+    *px = camera->x + camera->scale * near * dot(d, camera->right);
+    *py = camera->y - camera->scale * near * dot(d, camera->up);
+    return depth;
+}
+
+/* Scale and shift so that the shape just fills the frame. */
+static void camera_fit(ves_camera *camera, const ves_figure *figure, const ves_frame *frame)
+{
+    double lo[2] = {HUGE_VAL, HUGE_VAL}, hi[2] = {-HUGE_VAL, -HUGE_VAL};
+    camera->scale = 1, camera->x = camera->y = 0;
+    for (int k = 0; k < figure->patches; k++) {
+        const ves_figure_patch *p = &figure->patch[k];
+        for (int s = 0; s < nodes(p); s++) {
+            double x[3] = {p->X[0][s], p->X[1][s], p->X[2][s]}, at[2];
+            project(camera, x, &at[0], &at[1]);
+            for (int c = 0; c < 2 && isfinite(at[0] + at[1]); c++)
+                lo[c] = fmin(lo[c], at[c]), hi[c] = fmax(hi[c], at[c]);
+        }
+    }
+    if (!(lo[0] <= hi[0])) lo[0] = lo[1] = -1, hi[0] = hi[1] = 1;
+    double wide = fmax(hi[0] - lo[0], 1e-9 * camera->distance + 1e-300);
+    double high = fmax(hi[1] - lo[1], 1e-9 * camera->distance + 1e-300);
+    camera->scale = fmin((frame->right - frame->left) / wide, (frame->bottom - frame->top) / high);
+    camera->x = (frame->left + frame->right) / 2 - camera->scale * (lo[0] + hi[0]) / 2;
+    camera->y = (frame->top + frame->bottom) / 2 - camera->scale * (lo[1] + hi[1]) / 2;
+}
+
+/* Lambert from two soft lamps that go with the viewer, a highlight, and a shade towards the outline. n,
+ * to_eye: in the camera's axes, n on the viewer's side. depth: how far shading may darken; less where colours
+ * are to be read as numbers. */
+static ves_rgb lit(ves_rgb base, const double n[3], const double to_eye[3], double depth, double gloss)
+{
+    static const double key[3] = {-0.4205, 0.6207, 0.6619}, fill[3] = {0.8452, 0.1690, 0.5071};
+    double half[3] = {key[0] + to_eye[0], key[1] + to_eye[1], key[2] + to_eye[2]};
+    normalise(half);
+    double facing = fmax(0, dot(n, to_eye)), soft = pow(fmax(0, 0.5 + 0.5 * dot(n, key)), 1.4);
+    double shade = 0.92 * soft + 0.16 * fmax(0, dot(n, fill)) - 0.30 * fmax(0, 1 - 2.6 * facing);
+    double light = 1.06 - depth * (1 - shade), shine = gloss * pow(fmax(0, dot(n, half)), 44);
+    ves_rgb colour = {fmin(1, base.r * light), fmin(1, base.g * light), fmin(1, base.b * light)};
+    return ves_colour_mix(colour, (ves_rgb){1, 1, 1}, shine);
+}
+
+typedef struct maker {
+    ves_scene *scene;
+    const ves_figure_patch *p;
+    const double *plane;  /* of the coloured quantity */
+    ves_rgb base;         /* else */
+    int fine[2], step[2]; /* pieces along a quad; nodes between two drawn lines */
+    double reach;         /* size of a quad, in lengths */
+} maker;
+
+/* Value of a plane at (i, j) + (fu, fv), bilinear. */
+static double blend(const maker *m, const double *plane, int i, int j, double fu, double fv)
+{
+    int columns = m->p->columns, next = (j + 1) % columns;
+    const double *a = plane + i * columns, *b = a + columns;
+    return (1 - fu) * ((1 - fv) * a[j] + fv * a[next]) + fu * ((1 - fv) * b[j] + fv * b[next]);
+}
+
+static void blend3(const maker *m, double *const plane[3], int i, int j, double fu, double fv, double out[3])
+{
+    for (int c = 0; c < 3; c++) out[c] = blend(m, plane[c], i, j, fu, fv);
+}
+
+static ves_rgb piece_colour(const maker *m, const double x[3], const double normal[3], double value)
+{
+    const ves_camera *camera = &m->scene->camera;
+    static const ves_rgb lining = {0.86, 0.84, 0.80};
+    double eye[3], n[3], to_eye[3];
+    for (int c = 0; c < 3; c++)
+        eye[c] = camera->distance > 0 ? camera->target[c] + camera->distance * camera->toward[c] - x[c]
+                                      : camera->toward[c];
+    normalise(eye);
+    bool inside = dot(normal, eye) < 0;
+    const double *axis[3] = {camera->right, camera->up, camera->toward};
+    for (int c = 0; c < 3; c++) {
+        n[c] = dot(normal, axis[c]) * (inside ? -1 : 1);
+        to_eye[c] = dot(eye, axis[c]);
+    }
+    ves_rgb base = m->plane ? ves_colour_value(&m->scene->colours, value) : m->base;
+    if (inside) base = ves_colour_mix(base, lining, m->plane ? 0.30 : 0.78);
+    return lit(base, n, to_eye, m->plane ? 0.42 : 0.60, inside ? 0.04 : 0.25);
+}
+
+static void piece_add(const maker *m, int i, int j, int a, int b)
+{
+    static const int du[4] = {0, 1, 1, 0}, dv[4] = {0, 0, 1, 1};
+    const ves_figure_patch *p = m->p;
+    ves_scene *scene = m->scene;
+    ves_piece *piece = &scene->piece[scene->pieces];
+    double x[4][3], middle[3], normal[3], one[3], two[3], px, py;
+    for (int k = 0; k < 4; k++) {
+        blend3(m, p->X, i, j, (double)(a + du[k]) / m->fine[0], (double)(b + dv[k]) / m->fine[1], x[k]);
+        project(&scene->camera, x[k], &px, &py);
+        if (!isfinite(px + py)) return;
+        piece->x[k] = (float)px, piece->y[k] = (float)py;
+    }
+    double fu = (a + 0.5) / m->fine[0], fv = (b + 0.5) / m->fine[1];
+    blend3(m, p->X, i, j, fu, fv, middle);
+    blend3(m, p->normal, i, j, fu, fv, normal);
+    if (!(normalise(normal) > 1e-3)) {
+        for (int c = 0; c < 3; c++) one[c] = x[2][c] - x[0][c], two[c] = p->side * (x[3][c] - x[1][c]);
+        cross(one, two, normal);
+        normalise(normal);
+    }
+    ves_rgb colour = piece_colour(m, middle, normal, m->plane ? blend(m, m->plane, i, j, fu, fv) : 0);
+    piece->r = (float)colour.r, piece->g = (float)colour.g, piece->b = (float)colour.b;
+    piece->depth = (float)project(&scene->camera, middle, &px, &py);
+    piece->corners = 4;
+    piece->order = scene->pieces;
+    bool low_u = a == 0 && i % m->step[0] == 0, high_u = a == m->fine[0] - 1 && (i + 1) % m->step[0] == 0;
+    bool low_v = b == 0 && j % m->step[1] == 0, high_v = b == m->fine[1] - 1 && (j + 1) % m->step[1] == 0;
+    piece->lines =
+        (unsigned char)(low_u * VES_LOW_U | high_u * VES_HIGH_U | low_v * VES_LOW_V | high_v * VES_HIGH_V);
+    scene->pieces++;
+}
+
+/* A segment of an end curve, brought forward so that the surface it bounds does not hide it. */
+static void segment_add(const maker *m, int from, int to)
+{
+    ves_scene *scene = m->scene;
+    ves_piece *piece = &scene->piece[scene->pieces];
+    int end[2] = {from, to};
+    double depth = 0, px, py;
+    for (int k = 0; k < 2; k++) {
+        double x[3] = {m->p->X[0][end[k]], m->p->X[1][end[k]], m->p->X[2][end[k]]};
+        depth += project(&scene->camera, x, &px, &py) / 2;
+        if (!isfinite(px + py)) return;
+        piece->x[k] = (float)px, piece->y[k] = (float)py;
+    }
+    piece->corners = 2;
+    piece->order = scene->pieces;
+    piece->depth = (float)(depth + 0.75 * m->reach);
+    scene->pieces++;
+}
+
+/* Mean length of the lines along u (0) and around v (1). */
+static double line_length(const ves_figure_patch *p, int along)
+{
+    int di = along == 0, dj = along == 1, count = 0;
+    double sum = 0;
+    for (int i = 0; i < p->rows - di; i++) {
+        for (int j = 0; j < (dj ? p->nv : p->columns); j++) {
+            int a = i * p->columns + j, b = (i + di) * p->columns + (j + dj) % p->columns;
+            double d[3] = {p->X[0][a] - p->X[0][b], p->X[1][a] - p->X[1][b], p->X[2][a] - p->X[2][b]};
+            double length = sqrt(dot(d, d));
+            if (isfinite(length)) sum += length, count++;
+        }
+    }
+    return count ? sum / count * (along ? p->nv : p->nu) : 0;
+}
+
+/* The least step that divides n and leaves at most `most` parts. */
+static int divide(int n, int most)
+{
+    int step = 1;
+    while (step < n && (n % step || n / step > most)) step++;
+    return step;
+}
+
+static int refinement(double pixels, double cell)
+{
+    if (cell <= 0) return 1;
+    int fine = (int)ceil(pixels / cell);
+    return fine < 1 ? 1 : fine > REFINE ? REFINE : fine;
+}
+
+static void maker_init(maker *m, ves_scene *scene, const ves_figure *figure, int patch, double cell)
+{
+    const ves_figure_patch *p = &figure->patch[patch];
+    double u = line_length(p, 0), v = line_length(p, 1);
+    *m = (maker){.scene = scene, .p = p, .base = ves_colour_patch(patch)};
+    m->plane = scene->plane ? scene->plane[patch] : NULL;
+    m->fine[0] = refinement(u / p->nu * scene->camera.scale, cell);
+    m->fine[1] = refinement(v / p->nv * scene->camera.scale, cell);
+    /* As many lines along u as make the drawn meshes square, within reason. */
+    double wanted = v > 0 ? fmin(fmax(AROUND * u / v, 4), AROUND) : AROUND;
+    m->step[0] = divide(p->nu, (int)wanted);
+    m->step[1] = divide(p->nv, AROUND);
+    m->reach = fmax(u / p->nu, v / p->nv);
+}
+
+static void surface_add(const maker *m)
+{
+    for (int i = 0; i < m->p->nu; i++)
+        for (int j = 0; j < m->p->nv; j++)
+            for (int a = 0; a < m->fine[0]; a++)
+                for (int b = 0; b < m->fine[1]; b++) piece_add(m, i, j, a, b);
+}
+
+static void curves_add(const maker *m)
+{
+    const ves_figure_patch *p = m->p;
+    for (int end = 0; end < 2; end++) {
+        int row = end ? p->nu * p->columns : 0;
+        for (int j = 0; j < p->nv && !p->pole[end]; j++) segment_add(m, row + j, row + (j + 1) % p->columns);
+    }
+    for (int i = 0; i < p->nu && !p->periodic; i++) {
+        segment_add(m, i * p->columns, (i + 1) * p->columns);
+        segment_add(m, i * p->columns + p->nv, (i + 1) * p->columns + p->nv);
+    }
+}
+
+static ves_status colours_find(ves_scene *scene, const ves_figure *figure, int quantity, ves_arena *arena)
+{
+    int count = 0, at = 0;
+    for (int k = 0; k < figure->patches; k++) count += nodes(&figure->patch[k]);
+    double *values = ves_arena_doubles(arena, (size_t)count);
+    const double **plane = ves_arena_take(arena, (size_t)figure->patches, sizeof *plane);
+    if (!values || !plane) return VES_MEMORY;
+    for (int k = 0; k < figure->patches; k++) {
+        const ves_figure_patch *p = &figure->patch[k];
+        const double *const choice[] = {NULL, p->H, p->K, p->k1, p->k2};
+        plane[k] = choice[quantity];
+        memcpy(values + at, plane[k], (size_t)nodes(p) * sizeof *values);
+        at += nodes(p);
+    }
+    double unit = quantity == 2 ? 1 / (scene->size * scene->size) : 1 / scene->size;
+    scene->plane = plane;
+    scene->colours = ves_colour_scale_of(values, count, 1e-6 * unit, unit);
+    return VES_OK;
+}
+
+/* Farthest first; where depths agree, in the order of making, so that pictures repeat. */
+static int compare(const void *a, const void *b)
+{
+    const ves_piece *p = a, *q = b;
+    if (p->depth != q->depth) return p->depth < q->depth ? -1 : 1;
+    return (p->order > q->order) - (p->order < q->order);
+}
+
+static long pieces_needed(ves_scene *scene, const ves_figure *figure, double cell)
+{
+    long need = 1;
+    for (int k = 0; k < figure->patches; k++) {
+        maker m;
+        maker_init(&m, scene, figure, k, cell);
+        need += (long)m.p->nu * m.p->nv * m.fine[0] * m.fine[1] + 2L * (m.p->nu + m.p->nv);
+    }
+    return need;
+}
+
+ves_status ves_scene_build(ves_scene *scene, const ves_figure *figure, const ves_view *view,
+                           const ves_frame *frame, ves_arena *arena)
+{
+    int quantity = ves_scene_quantity(view->colour);
+    double cell = frame->cell;
+    *scene = (ves_scene){0};
+    scene->size = bounds(figure, scene->camera.target);
+    scene->camera.distance = view->orthographic ? 0 : 4.6 * scene->size;
+    camera_aim(&scene->camera, figure, view, scene->size);
+    camera_fit(&scene->camera, figure, frame);
+    if (quantity > 0) VES_TRY(colours_find(scene, figure, quantity, arena));
+    long need = pieces_needed(scene, figure, cell);
+    for (; need > PIECES && cell > 0 && cell < 100; need = pieces_needed(scene, figure, cell)) cell *= 1.5;
+    scene->piece = ves_arena_take(arena, (size_t)need, sizeof *scene->piece);
+    if (!scene->piece) return VES_MEMORY;
+    for (int k = 0; k < figure->patches; k++) {
+        maker m;
+        maker_init(&m, scene, figure, k, cell);
+        surface_add(&m);
+        curves_add(&m);
+    }
+    qsort(scene->piece, (size_t)scene->pieces, sizeof *scene->piece, compare);
+    return VES_OK;
+}
