@@ -1,5 +1,6 @@
-/* Weight tables against an oracle: the same cardinal functions from the textbook basis u^k e^{+-lam u} (u^k for lam = 0), solved with
- * MPFR by Gaussian elimination. That basis loses about 3 lam bits (and 20 powers of small lam): `bits` leaves hundreds. */
+/* Weight tables against an oracle: the same cardinal functions from the textbook basis u^k e^{+-lam u} (u^k
+ * for lam = 0), solved with MPFR by Gaussian elimination. That basis loses about 3 lam bits (and 20 powers of
+ * small lam): `bits` leaves hundreds. */
 #include <criterion/criterion.h>
 #include <math.h>
 #include <mpfr.h>
@@ -23,7 +24,8 @@ static const ves_layout LAYOUT[] = {
 };
 enum { LAYOUTS = sizeof LAYOUT / sizeof *LAYOUT };
 
-/* d-th derivative of member m of the textbook basis at u: u^k e^{s lam u}, k = m / 2, s = +-1 (lam > 0); u^m (lam = 0). */
+/* d-th derivative of member m of the textbook basis at u: u^k e^{s lam u}, k = m / 2, s = +-1 (lam > 0); u^m
+ * (lam = 0). */
 static void member(int m, int d, double lam, double u, mpfr_t out)
 {
     mpfr_t x, term;
@@ -61,8 +63,10 @@ static void oracle_solve(oracle *o, const ves_layout *layout, double lam)
     for (int r = 0; r < n; r++)
         for (int c = 0; c < 2 * n; c++) {
             mpfr_init2(o->a[r][c], bits(lam));
-            if (c < n) member(c, layout->knot[r].derivative, lam, layout->knot[r].u, o->a[r][c]);
-            else mpfr_set_ui(o->a[r][c], c - n == r, MPFR_RNDN);
+            if (c < n)
+                member(c, layout->knot[r].derivative, lam, layout->knot[r].u, o->a[r][c]);
+            else
+                mpfr_set_ui(o->a[r][c], c - n == r, MPFR_RNDN);
         }
     for (int p = 0; p < n; p++) {
         int best = p;
@@ -110,7 +114,7 @@ static void places(double *u)
 static void check(const ves_layout *layout, double lam)
 {
     int n = 2 * layout->power;
-    double u[PLACES], weight[3 * MOST * PLACES], room[1000];
+    double u[PLACES], weight[3 * MOST * PLACES], room[1000] __attribute__((aligned(64)));
     places(u);
     cr_assert(ves_weights_room(PLACES) <= 1000);
     ves_weights_mode(layout, lam, PLACES, u, weight, NULL, room);
@@ -123,7 +127,8 @@ static void check(const ves_layout *layout, double lam)
             for (int i = 0; i < PLACES; i++) {
                 double got = weight[(d * n + j) * PLACES + i], want = oracle_value(&o, j, d, lam, u[i]);
                 double unit = largest * pow(fmax(1, lam), d);
-                cr_assert(fabs(got - want) <= 1e-12 * unit, "power %d lam %g condition %d derivative %d u %g: got %.17g want %.17g (%.2g)",
+                cr_assert(fabs(got - want) <= 1e-12 * unit,
+                          "power %d lam %g condition %d derivative %d u %g: got %.17g want %.17g (%.2g)",
                           layout->power, lam, j, d, u[i], got, want, fabs(got - want) / unit);
             }
     }
@@ -132,13 +137,15 @@ static void check(const ves_layout *layout, double lam)
 
 Test(weights, agree_with_the_oracle_for_every_lam_up_to_1000)
 {
-    static const double lam[] = {0,   1e-6, 1e-3, 0.01, 0.1, 0.3, 0.7, 1,  1.4999, 1.5, 1.5001, 2,    2.5,  2.9999,
-                                 3.0, 3.01, 4,    6,    8,   12,  20,  30, 50,     80,  150,    300,  500,  800, 1000};
+    static const double lam[] = {0,      1e-6, 1e-3, 0.01,   0.1, 0.3,  0.7, 1,   1.4999, 1.5,
+                                 1.5001, 2,    2.5,  2.9999, 3.0, 3.01, 4,   6,   8,      12,
+                                 20,     30,   50,   80,     150, 300,  500, 800, 1000};
     for (int l = 0; l < LAYOUTS; l++)
         for (size_t k = 0; k < sizeof lam / sizeof *lam; k++) check(&LAYOUT[l], lam[k]);
 }
 
-/* The table of all modes uses powers of e^{-a u}: the same numbers as mode by mode, to the rounding of those powers. */
+/* The table of all modes uses powers of e^{-a u}: the same numbers as mode by mode, to the rounding of those
+ * powers. */
 Test(weights, table_agrees_with_single_modes)
 {
     enum { MODES = 40 };
@@ -146,29 +153,32 @@ Test(weights, table_agrees_with_single_modes)
         for (double a = 0.01; a < 30; a *= 3.7) {
             const ves_layout *layout = &LAYOUT[l];
             int row = 3 * 2 * layout->power * PLACES;
-            double u[PLACES], one[3 * MOST * PLACES], room[1000], *table = malloc(sizeof *table * (size_t)((MODES + 1) * row));
+            double u[PLACES], one[3 * MOST * PLACES], room[1000] __attribute__((aligned(64))),
+                *table = malloc(sizeof *table * (size_t)((MODES + 1) * row));
             places(u);
             ves_weights_bind(layout, a, MODES, PLACES, u, table, NULL, room);
             for (int n = 0; n <= MODES; n++) {
                 ves_weights_mode(layout, a * n, PLACES, u, one, NULL, room);
                 for (int k = 0; k < row; k++) {
                     double d = k / (2 * layout->power * PLACES), unit = pow(fmax(1, a * n), d);
-                    cr_assert(fabs(one[k] - table[n * row + k]) <= 1e-13 * unit, "a %g mode %d entry %d: %.17g %.17g", a, n, k,
-                              one[k], table[n * row + k]);
+                    cr_assert(fabs(one[k] - table[n * row + k]) <= 1e-13 * unit,
+                              "a %g mode %d entry %d: %.17g %.17g", a, n, k, one[k], table[n * row + k]);
                 }
             }
             free(table);
         }
 }
 
-/* d/dlam by forward differentiation against a central difference of fourth order: truncation h^4, rounding 1e-15 / h. */
+/* d/dlam by forward differentiation against a central difference of fourth order: truncation h^4, rounding
+ * 1e-15 / h. */
 Test(weights, derivative_with_respect_to_lam)
 {
     for (int l = 0; l < LAYOUTS; l++)
         for (double lam = 0.05; lam < 700; lam *= 2.3) {
             const ves_layout *layout = &LAYOUT[l];
             int row = 3 * 2 * layout->power * PLACES;
-            double u[PLACES], w[5][3 * MOST * PLACES], slope[3 * MOST * PLACES], room[1000], h = 2e-3 * lam;
+            double u[PLACES], w[5][3 * MOST * PLACES], slope[3 * MOST * PLACES],
+                room[1000] __attribute__((aligned(64))), h = 2e-3 * lam;
             places(u);
             bool across = (lam - 2.1 * h < 1.5 * layout->power) != (lam + 2.1 * h < 1.5 * layout->power);
             for (int k = 0; k < 5; k++)
@@ -176,8 +186,8 @@ Test(weights, derivative_with_respect_to_lam)
             for (int k = 0; k < row; k++) {
                 double d = k / (2 * layout->power * PLACES), unit = pow(fmax(1, lam), d) / fmin(lam, 1);
                 double want = (w[0][k] - 8 * w[1][k] + 8 * w[3][k] - w[4][k]) / (12 * h);
-                cr_assert(fabs(slope[k] - want) <= (across ? 1e-8 : 1e-9) * unit, "lam %g entry %d: got %.12g want %.12g", lam, k,
-                          slope[k], want);
+                cr_assert(fabs(slope[k] - want) <= (across ? 1e-8 : 1e-9) * unit,
+                          "lam %g entry %d: got %.12g want %.12g", lam, k, slope[k], want);
             }
         }
 }
@@ -193,7 +203,7 @@ Test(weights, layouts_that_determine_nothing_are_refused)
 /* A straight line (power 1) and a cubic (power 2) at lam = 0: a = 0 is legal. */
 Test(weights, mode_zero_is_polynomial)
 {
-    double u[PLACES], w[3 * MOST * PLACES], room[1000];
+    double u[PLACES], w[3 * MOST * PLACES], room[1000] __attribute__((aligned(64)));
     places(u);
     ves_weights_mode(&LAYOUT[0], 0, PLACES, u, w, NULL, room);
     for (int i = 0; i < PLACES; i++) {

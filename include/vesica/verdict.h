@@ -33,7 +33,7 @@ typedef struct ves_verdict {
     ves_status status; /* VES_OK, or positive: the candidate failed and nothing below but violation holds */
     double value;      /* to be minimised */
     double violation;  /* largest scaled violation, >= 0; of a failed candidate HUGE_VAL. A search hands it in
-                        * as NAN and,  when it is left so, takes the largest of constraint */
+                        * as NAN and, when it is left so, takes the largest of constraint */
     double *constraint; /* [m] scaled excess: an inequality holds when <= 0, an equality when 0 */
     double *gradient;   /* [n] of value */
     double *jacobian;   /* [m][n] of constraint */

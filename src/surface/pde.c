@@ -23,6 +23,7 @@ typedef struct pde {
 
 typedef struct pde_chart {
     int nup;
+    int orders;              /* derivatives along u that the chart's fields need: 0 .. orders - 1 */
     double *u;               /* nup places: the grid's, the last one repeated */
     double *table, *table_a; /* weights of modes 0 .. M and their derivative */
     double *rest, *rest_a;   /* weights of the remainder [3][conditions][nup] */
@@ -80,6 +81,8 @@ static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena
     if (!c) return VES_MEMORY;
     c->nup = ves_padded(grid->nu);
     c->a_table = NAN;
+    for (int f = 0; f < VES_FIELDS; f++)
+        if (chart->fields & 1u << f && VES_FIELD_D[f] >= c->orders) c->orders = VES_FIELD_D[f] + 1;
     long table = ves_weights_size(&p->layout, p->modes, c->nup), rest = 3L * p->conditions * c->nup;
     long mode = 9L * stride(p->modes) * c->nup, tail = p->band - p->modes;
     long residual = tail ? 3L * p->conditions * 3 * grid->nv : 0;
@@ -113,25 +116,34 @@ static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena
     return ves_synthesis_create(grid, p->modes, arena, &c->synthesis);
 }
 
-/* A = W F, two products a mode: cosine and sine. */
+#define HOT static inline __attribute__((always_inline))
+
+/* A = W F, two products a mode: cosine and sine. K conditions, derivatives 0 .. orders - 1. */
+HOT void modes_product(const pde *p, pde_chart *c, int K, int orders)
+{
+    int nup = c->nup, width = stride(p->band), mode_stride = stride(p->modes);
+    for (int n = 0; n <= p->modes; n++)
+        for (int d = 0; d < orders; d++)
+            for (int b = 0; b < nup; b += VES_LANES) {
+                lanes w[VES_CONDITIONS_MAX];
+                for (int j = 0; j < K; j++)
+                    w[j] = *(const lanes *)(c->table + (size_t)(((n * 3 + d) * K + j) * nup + b));
+                for (int k = 0; k < 3; k++)
+                    for (int part = n ? 2 * n - 1 : 0; part <= 2 * n; part++) {
+                        const double *f = p->data + k * width + part;
+                        lanes sum = w[0] * f[0];
+                        for (int j = 1; j < K; j++) sum += w[j] * f[j * 3 * width];
+                        *(lanes *)(c->mode + (size_t)(((d * 3 + k) * mode_stride + part) * nup + b)) = sum;
+                    }
+            }
+}
+
 static void modes_eval(const pde *p, pde_chart *c)
 {
-    int K = p->conditions, nup = c->nup, width = stride(p->band), mode_stride = stride(p->modes);
-    for (int n = 0; n <= p->modes; n++)
-        for (int d = 0; d < 3; d++) {
-            const double *w = c->table + (size_t)((n * 3 + d) * K * nup);
-            for (int k = 0; k < 3; k++)
-                for (int part = n ? 2 * n - 1 : 0; part <= 2 * n; part++) {
-                    double *out = c->mode + (size_t)(((d * 3 + k) * mode_stride + part) * nup);
-                    const double *f = p->data + k * width + part;
-                    for (int b = 0; b < nup; b += VES_LANES) {
-                        lanes sum = *(const lanes *)(w + b) * f[0];
-                        for (int j = 1; j < K; j++)
-                            sum += *(const lanes *)(w + j * nup + b) * f[j * 3 * width];
-                        *(lanes *)(out + b) = sum;
-                    }
-                }
-        }
+    if (p->conditions == 4)
+        modes_product(p, c, 4, c->orders);
+    else
+        modes_product(p, c, 2, c->orders);
 }
 
 static void residual_eval(const pde *p, const pde_chart *c, int nv)
@@ -238,31 +250,40 @@ static void pde_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_p
         }
 }
 
-/* The transpose of modes_eval, and a's part. */
-static void modes_gather(pde *p, const pde_chart *c)
+/* The transpose of modes_product, and a's part. */
+HOT void modes_transpose(pde *p, const pde_chart *c, int K, int orders)
 {
-    int K = p->conditions, nup = c->nup, width = stride(p->band), mode_stride = stride(p->modes);
+    int nup = c->nup, width = stride(p->band), mode_stride = stride(p->modes);
     lanes by_a = {0};
     for (int n = 0; n <= p->modes; n++)
         for (int k = 0; k < 3; k++)
-            for (int part = n ? 2 * n - 1 : 0; part <= 2 * n; part++)
+            for (int part = n ? 2 * n - 1 : 0; part <= 2 * n; part++) {
+                lanes sum[VES_CONDITIONS_MAX] = {{0}}, moved[VES_CONDITIONS_MAX] = {{0}};
+                for (int d = 0; d < orders; d++)
+                    for (int b = 0; b < nup; b += VES_LANES) {
+                        lanes g = *(const lanes *)(c->mode_adjoint +
+                                                   (size_t)(((d * 3 + k) * mode_stride + part) * nup + b));
+                        size_t w = (size_t)((n * 3 + d) * K * nup + b);
+                        for (int j = 0; j < K; j++)
+                            sum[j] += g * *(const lanes *)(c->table + w + (size_t)(j * nup));
+                        for (int j = 0; j < K && p->a_varies; j++)
+                            moved[j] += g * *(const lanes *)(c->table_a + w + (size_t)(j * nup));
+                    }
                 for (int j = 0; j < K; j++) {
                     size_t at = (size_t)((j * 3 + k) * width + part);
-                    lanes sum = {0}, moved = {0};
-                    for (int d = 0; d < 3; d++) {
-                        const double *g =
-                            c->mode_adjoint + (size_t)(((d * 3 + k) * mode_stride + part) * nup);
-                        size_t w = (size_t)(((n * 3 + d) * K + j) * nup);
-                        for (int b = 0; b < nup; b += VES_LANES) {
-                            sum += *(const lanes *)(g + b) * *(const lanes *)(c->table + w + b);
-                            if (p->a_varies)
-                                moved += *(const lanes *)(g + b) * *(const lanes *)(c->table_a + w + b);
-                        }
-                    }
-                    p->data_adjoint[at] += total(sum);
-                    by_a += moved * p->data[at];
+                    p->data_adjoint[at] += total(sum[j]);
+                    by_a += moved[j] * p->data[at];
                 }
+            }
     p->a_adjoint += total(by_a);
+}
+
+static void modes_gather(pde *p, const pde_chart *c)
+{
+    if (p->conditions == 4)
+        modes_transpose(p, c, 4, c->orders);
+    else
+        modes_transpose(p, c, 2, c->orders);
 }
 
 static void pde_gather(ves_chart *chart, const ves_bound *bound, double *number_adjoint)

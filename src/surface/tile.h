@@ -19,6 +19,20 @@ enum {
 /* A register of nodes along u. GCC's vector extension: on narrower machines it becomes several registers. */
 typedef double ves_lanes __attribute__((vector_size(VES_LANES * sizeof(double))));
 
+static inline ves_lanes ves_lanes_at(const double *from)
+{
+    ves_lanes x;
+    __builtin_memcpy(&x, from, sizeof x);
+    return x;
+}
+
+static inline ves_lanes ves_lanes_min(ves_lanes a, ves_lanes b)
+{
+    typedef long long mask __attribute__((vector_size(sizeof(ves_lanes))));
+    mask less = a < b;
+    return (ves_lanes)((less & (mask)a) | (~less & (mask)b));
+}
+
 /* Which derivative each field is: along u and along v. */
 extern const int VES_FIELD_D[VES_FIELDS], VES_FIELD_E[VES_FIELDS];
 

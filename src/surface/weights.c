@@ -4,6 +4,8 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "surface/tile.h"
+
 /* Below the switch the solutions are spanned by the centred fundamental solutions, t = u - 1/2, mu = lam^2,
  *     c_k = (1/k!) d^k/dmu^k cosh(sqrt(mu) t),      s_k = (1/k!) d^k/dmu^k sinh(sqrt(mu) t) / sqrt(mu),
  * series of positive terms, so nothing cancels and lam = 0 is not special:
@@ -16,7 +18,10 @@
  *
  * The basis is evaluated at the wanted places and, behind them, at the knots of the conditions: one pass
  * serves both. */
-enum { FAMILY = VES_POWER_MAX + 1, TERMS = 14, K = VES_CONDITIONS_MAX, LANES = 8 };
+enum { FAMILY = VES_POWER_MAX + 1, TERMS = 14, K = VES_CONDITIONS_MAX, LANES = VES_LANES };
+
+_Static_assert(2 * VES_CONDITIONS_MAX == VES_LANES,
+               "a row of the condition matrix and its inverse is one register");
 
 static const double SWITCH = 1.5; /* times N */
 
@@ -105,35 +110,33 @@ static places places_init(const ves_layout *layout, int nu, const double *u, dou
     return p;
 }
 
+/* sum_i c[i] z^i by two Horner chains in z^2: half the latency. */
+HOT ves_lanes horner(const double *c, ves_lanes z)
+{
+    ves_lanes z2 = z * z, even = c[TERMS - 2] + (ves_lanes){0}, rest = c[TERMS - 1] + (ves_lanes){0};
+    for (int m = TERMS - 4; m >= 0; m -= 2) even = even * z2 + c[m], rest = rest * z2 + c[m + 1];
+    return even + z * rest;
+}
+
+HOT ves_lanes *register_at(double *plane, int block)
+{
+    return (ves_lanes *)(plane + block);
+}
+
 /* family 0: c_k, family 1: s_k, with first and second derivatives. */
 HOT void centred(const places *p, double lam, int members)
 {
     double mu = lam * lam;
-    for (int k = 0; k < members; k++)
-        for (int odd = 0; odd < 2; odd++) {
-            double *out = plane(p, odd, k, 0);
-            const double *c = SERIES[k][odd];
-#pragma omp simd
-            for (int i = 0; i < p->width; i++) {
-                double t = p->u[i] - 0.5, tt = t * t, z = mu * tt, z2 = z * z;
-                double even = c[TERMS - 2],
-                       rest = c[TERMS - 1]; /* two Horner chains in z^2: half the latency */
-                for (int m = TERMS - 4; m >= 0; m -= 2) even = even * z2 + c[m], rest = rest * z2 + c[m + 1];
-                double sum = even + z * rest;
-                out[i] = sum * (odd ? t : 1) * (k > 0 ? tt : 1) * (k > 1 ? tt : 1);
-            }
-        }
-    for (int k = 0; k < members; k++) {
-        const double *c = plane(p, 0, k, 0), *s = plane(p, 1, k, 0);
-        const double *c1 = plane(p, 0, k ? k - 1 : 0, 0), *s1 = plane(p, 1, k ? k - 1 : 0, 0);
-        double *cu = plane(p, 0, k, 1), *su = plane(p, 1, k, 1), *cuu = plane(p, 0, k, 2),
-               *suu = plane(p, 1, k, 2);
-        double lower = k > 0;
-#pragma omp simd
-        for (int i = 0; i < p->width; i++) {
-            cu[i] = suu[i] = mu * s[i] + lower * s1[i];
-            cuu[i] = mu * c[i] + lower * c1[i];
-            su[i] = c[i];
+    for (int b = 0; b < p->width; b += LANES) {
+        ves_lanes t = *register_at(p->u, b) - 0.5, tt = t * t, z = mu * tt, power = 1 + (ves_lanes){0};
+        ves_lanes c1 = {0}, s1 = {0}; /* members k - 1 */
+        for (int k = 0; k < members; k++) {
+            ves_lanes c = power * horner(SERIES[k][0], z), s = power * t * horner(SERIES[k][1], z);
+            *register_at(plane(p, 0, k, 0), b) = *register_at(plane(p, 1, k, 1), b) = c;
+            *register_at(plane(p, 1, k, 0), b) = s;
+            *register_at(plane(p, 0, k, 1), b) = *register_at(plane(p, 1, k, 2), b) = mu * s + s1;
+            *register_at(plane(p, 0, k, 2), b) = mu * c + c1;
+            c1 = c, s1 = s, power *= tt;
         }
     }
 }
@@ -142,16 +145,17 @@ HOT void centred(const places *p, double lam, int members)
 HOT void decaying(const places *p, int family, double lam, int members)
 {
     double sign = family ? -1 : 1;
-    const double *u = family ? p->mirrored : p->u, *e = family ? p->right : p->left;
-    for (int k = 0; k < members; k++) {
-        double *f = plane(p, family, k, 0), *fu = plane(p, family, k, 1), *fuu = plane(p, family, k, 2);
-        const double *g = plane(p, family, k ? k - 1 : 0, 0), *gu = plane(p, family, k ? k - 1 : 0, 1);
-        double lower = sign * k;
-#pragma omp simd
-        for (int i = 0; i < p->width; i++) {
-            f[i] = k ? u[i] * g[i] : e[i];
-            fu[i] = lower * g[i] - sign * lam * f[i];
-            fuu[i] = lower * gu[i] - sign * lam * fu[i];
+    for (int b = 0; b < p->width; b += LANES) {
+        ves_lanes u = *register_at(family ? p->mirrored : p->u, b),
+                  f = *register_at(family ? p->right : p->left, b);
+        ves_lanes g = {0}, gu = {0}; /* member k - 1 and its derivative */
+        for (int k = 0; k < members; k++) {
+            if (k) f *= u;
+            ves_lanes fu = sign * k * g - sign * lam * f;
+            *register_at(plane(p, family, k, 0), b) = f;
+            *register_at(plane(p, family, k, 1), b) = fu;
+            *register_at(plane(p, family, k, 2), b) = sign * k * gu - sign * lam * fu;
+            g = f, gu = fu;
         }
     }
 }
@@ -177,42 +181,40 @@ HOT double lam_factor(int N, double lam, int k)
     return small_lam(N, lam) ? 2 * lam * (k + 1) : -1;
 }
 
+/* One row of [matrix | inverse]: 2 K = 8 numbers, one register. */
+typedef ves_lanes row_of[K];
+
 /* Gauss-Jordan with partial pivoting on an equilibrated matrix; false when a pivot vanishes. */
-HOT bool invert(int n, double a[K][2 * K])
+HOT bool invert(int n, row_of a)
 {
     for (int r = 0; r < n; r++) {
         double largest = 0;
         for (int c = 0; c < n; c++) largest = fabs(a[r][c]) > largest ? fabs(a[r][c]) : largest;
-        double scale = 1 / largest;
-        for (int c = 0; c < n; c++) a[r][c] *= scale, a[r][n + c] = r == c ? scale : 0;
+        a[r][n + r] = 1;
+        a[r] *= 1 / largest;
     }
     for (int p = 0; p < n; p++) {
         int best = p;
         for (int r = p + 1; r < n; r++)
             if (fabs(a[r][p]) > fabs(a[best][p])) best = r;
         if (!(fabs(a[best][p]) > 1e-13)) return false;
-        for (int c = 0; c < 2 * n && best != p; c++) {
-            double swap = a[p][c];
-            a[p][c] = a[best][c], a[best][c] = swap;
-        }
-        double pivot = 1 / a[p][p];
-        for (int c = 0; c < 2 * n; c++) a[p][c] *= pivot;
-        for (int r = 0; r < n; r++) {
-            double f = a[r][p];
-            if (r == p) continue;
-            for (int c = 0; c < 2 * n; c++) a[r][c] -= f * a[p][c];
-        }
+        ves_lanes pivot = a[best] / a[best][p];
+        a[best] = a[p];
+        a[p] = pivot;
+        for (int r = 0; r < n; r++)
+            if (r != p) a[r] -= a[r][p] * pivot;
     }
     return true;
 }
 
 /* The condition matrix: row j is condition j applied to each member; its inverse in the right half.
  * derivative: the matrix differentiated with respect to lam. */
-HOT bool conditions(const ves_layout *layout, const places *p, int N, double lam, double matrix[K][2 * K],
+HOT bool conditions(const ves_layout *layout, const places *p, int N, double lam, row_of matrix,
                     double derivative[K][K])
 {
     for (int j = 0; j < 2 * N; j++) {
         int d = layout->knot[j].derivative, at = p->nu + j;
+        matrix[j] = (ves_lanes){0};
         for (int m = 0; m < 2 * N; m++) {
             matrix[j][m] = plane(p, m / N, m % N, d)[at];
             if (derivative) derivative[j][m] = lam_factor(N, lam, m % N) * plane(p, m / N, m % N + 1, d)[at];
@@ -221,8 +223,23 @@ HOT bool conditions(const ves_layout *layout, const places *p, int N, double lam
     return invert(2 * N, matrix);
 }
 
+/* Registers of places; rows of a table need not be whole registers. */
+HOT ves_lanes lanes_part(const double *from, int count)
+{
+    ves_lanes x = {0};
+    if (count >= LANES) return ves_lanes_at(from);
+    for (int i = 0; i < count; i++) x[i] = from[i];
+    return x;
+}
+
+HOT void lanes_store(double *to, int count, ves_lanes x)
+{
+    if (count >= LANES) memcpy(to, &x, sizeof x);
+    for (int i = 0; i < count && count < LANES; i++) to[i] = x[i];
+}
+
 /* weight_lam = (basis' - weight matrix') matrix^-1. */
-HOT void combine_lam(const places *p, int N, double lam, double matrix[K][2 * K], double derivative[K][K],
+HOT void combine_lam(const places *p, int N, double lam, row_of matrix, double derivative[K][K],
                      const double *weight, double *weight_lam)
 {
     int n = 2 * N, nu = p->nu;
@@ -233,13 +250,16 @@ HOT void combine_lam(const places *p, int N, double lam, double matrix[K][2 * K]
             for (int m = 0; m < n; m++) product[r][j] += derivative[r][m] * matrix[m][n + j];
         }
     for (int d = 0; d < 3; d++)
-        for (int j = 0; j < n; j++) {
-            double *out = weight_lam + (d * n + j) * nu;
+        for (int block = 0; block < nu; block += LANES) {
+            ves_lanes next[K], w[K];
             for (int m = 0; m < n; m++) {
-                const double *next = plane(p, m / N, m % N + 1, d), *w = weight + (d * n + m) * nu;
-                double f = lam_factor(N, lam, m % N) * matrix[m][n + j], g = product[m][j];
-#pragma omp simd
-                for (int i = 0; i < nu; i++) out[i] = (m ? out[i] : 0) + f * next[i] - g * w[i];
+                next[m] = lam_factor(N, lam, m % N) * ves_lanes_at(plane(p, m / N, m % N + 1, d) + block);
+                w[m] = lanes_part(weight + (d * n + m) * nu + block, nu - block);
+            }
+            for (int j = 0; j < n; j++) {
+                ves_lanes sum = {0};
+                for (int m = 0; m < n; m++) sum += next[m] * matrix[m][n + j] - w[m] * product[m][j];
+                lanes_store(weight_lam + (d * n + j) * nu + block, nu - block, sum);
             }
         }
 }
@@ -249,7 +269,8 @@ HOT void combine(const ves_layout *layout, const places *p, int N, double lam, d
                  double *weight_lam)
 {
     int n = 2 * N, nu = p->nu;
-    double matrix[K][2 * K], derivative[K][K];
+    row_of matrix;
+    double derivative[K][K];
     if (!conditions(layout, p, N, lam, matrix, weight_lam ? derivative : NULL)) {
         /* ruled out by ves_layout_check; never leave rubbish behind */
         memset(weight, 0, sizeof(double) * (size_t)(3 * n * nu));
@@ -257,13 +278,13 @@ HOT void combine(const ves_layout *layout, const places *p, int N, double lam, d
         return;
     }
     for (int d = 0; d < 3; d++)
-        for (int j = 0; j < n; j++) {
-            double *out = weight + (d * n + j) * nu;
-            for (int m = 0; m < n; m++) {
-                const double *b = plane(p, m / N, m % N, d);
-                double f = matrix[m][n + j];
-#pragma omp simd
-                for (int i = 0; i < nu; i++) out[i] = (m ? out[i] : 0) + f * b[i];
+        for (int block = 0; block < nu; block += LANES) {
+            ves_lanes member[K];
+            for (int m = 0; m < n; m++) member[m] = ves_lanes_at(plane(p, m / N, m % N, d) + block);
+            for (int j = 0; j < n; j++) {
+                ves_lanes sum = member[0] * matrix[0][n + j];
+                for (int m = 1; m < n; m++) sum += member[m] * matrix[m][n + j];
+                lanes_store(weight + (d * n + j) * nu + block, nu - block, sum);
             }
         }
     if (weight_lam) combine_lam(p, N, lam, matrix, derivative, weight, weight_lam);
@@ -315,7 +336,8 @@ void ves_weights_bind(const ves_layout *layout, double a, int modes, int nu, con
 ves_status ves_layout_check(const ves_layout *layout)
 {
     static const double lam[] = {0, 0.1, 1, 3, 10, 30, 100, 300};
-    double room[(2 * FAMILY * 3 + 6) * 2 * LANES], matrix[K][2 * K];
+    _Alignas(64) double room[(2 * FAMILY * 3 + 6) * 2 * LANES];
+    row_of matrix;
     places p = places_init(layout, 0, NULL, room);
     for (size_t k = 0; k < sizeof lam / sizeof *lam; k++) {
         for (int i = 0; i < p.width; i++) {
