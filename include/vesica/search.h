@@ -1,0 +1,173 @@
+/* Search: minimise a callback over a box, with constraints. Knows no geometry and is usable by itself:
+ *
+ *     ves_search_problem problem = {.n = 2, .lower = lower, .upper = upper, .start = start, .evaluate =
+ * mine}; ves_search_options options = ves_search_options_default(); ves_search_result *result; ves_status
+ * status = ves_search_run(&problem, &options, NULL, &result);
+ *     ... result->x, result->value ...
+ *     ves_search_result_destroy(result);
+ *
+ * One seed, one result, whatever `workers` is: random numbers are counters, and members of the population
+ * meet only at the ends of temperature stages. */
+#ifndef VESICA_SEARCH_H
+#define VESICA_SEARCH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "vesica/status.h"
+#include "vesica/verdict.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct ves_search_problem {
+    int n;               /* variables, >= 1 */
+    int m;               /* constraints */
+    const double *lower; /* [n] finite, lower < upper */
+    const double *upper;
+    const double *start;  /* [n] inside the box */
+    const bool *equality; /* [m] true: constraint == 0; false: constraint <= 0. NULL: all inequalities */
+    double tolerance;     /* feasible: violation <= tolerance; 0: 1e-6 */
+    bool gradients;       /* evaluate answers VES_WANT_GRADIENT exactly */
+    int workers;          /* how many threads may call evaluate at once, >= 1; 0: 1 */
+
+    /* Judges one candidate. Calls with different `worker` (0 .. workers-1) may run at the same time. A
+     * candidate that cannot be judged is verdict->status > 0; a negative return ends the search. */
+    ves_status (*evaluate)(void *data, int worker, const ves_ask *ask, ves_verdict *verdict);
+    void *data;
+
+    const char *const *name; /* [n] of the variables, for the notes; NULL: x[0], x[1] ... */
+} ves_search_problem;
+
+/* The annealer of [Ugail 2011, 7.3-7.4]: Metropolis acceptance (7.4.1), exponential schedule c_m = c_0
+ * e^{(s-1) m} (7.3), crude or exact penalty. 0 or NAN means "found from the data". */
+typedef struct ves_anneal {
+    long evaluations; /* budget of the stage, all chains together; 0: from the number of variables */
+    int chains;       /* independent chains, 0: 4; never depends on the number of threads */
+    double c0;        /* first temperature; NAN: measured so that uphill moves are accepted at first */
+    double s; /* schedule (7.3), 0 < s < 1; NAN: so that the temperature falls to c_end within the budget */
+    double c_end; /* frozen at c_end * c0; NAN: 1e-4 */
+    double step;  /* first step width as a fraction of each range; NAN: 0.1, then adapted to the acceptance */
+    bool adapt;   /* step widths follow the acceptance (Corana et al. 1987); false: fixed, as in the book */
+    double weight; /* penalty per unit of violation; NAN: from the data, grown while the best is infeasible */
+} ves_anneal;
+
+/* NLopt local search on scaled quantities: variables in [0, 1], objective over its largest slope, constraints
+ * as they are. */
+typedef struct ves_polish {
+    const char *algorithm; /* slsqp mma ccsa cobyla bobyqa sbplx auglag; NULL: by gradients and constraints */
+    long evaluations;      /* budget of the stage; 0: from the number of variables */
+    double x_tolerance;    /* relative to the range; NAN: 1e-9 */
+    double f_tolerance;    /* relative; NAN: 1e-12 */
+    int starts;            /* how many ends of the stage before are polished, best first; 0: all */
+    bool escape;           /* leave a saddle along a direction of negative curvature (needs gradients) */
+} ves_polish;
+
+typedef enum ves_stage_kind { VES_STAGE_ANNEAL, VES_STAGE_POLISH } ves_stage_kind;
+
+typedef struct ves_stage {
+    ves_stage_kind kind;
+    ves_anneal anneal;
+    ves_polish polish;
+} ves_stage;
+
+enum { VES_STAGES = 16 };
+
+typedef struct ves_search_options {
+    int stages; /* 0: auto = anneal with eight chains, then polish each end */
+    ves_stage stage[VES_STAGES];
+    uint64_t seed;
+    long evaluations; /* budget of the whole search; 0: the sum of the stages */
+} ves_search_options;
+
+ves_search_options ves_search_options_default(void);
+ves_anneal ves_anneal_default(void);
+ves_polish ves_polish_default(void);
+
+/* What the search tells while it runs; always in the same order for the same seed. Called from the thread
+ * that called ves_search_run. */
+typedef struct ves_progress {
+    int stage;              /* index */
+    const char *stage_name; /* "anneal", "slsqp" ... */
+    long evaluations, budget;
+    double temperature, acceptance; /* of annealing; else NAN */
+    bool any;                       /* some candidate was measured: value, violation hold */
+    double value, violation;        /* best so far */
+} ves_progress;
+
+/* One evaluation, for the trace. */
+typedef struct ves_record {
+    long evaluation;  /* counts from 1 in the order of the trace */
+    int stage, chain; /* chain: of an annealing, or the number of the polish; -1: proofs and other questions
+                         of the whole search */
+    const double *x;
+    double value, violation, temperature;
+    ves_status status;
+    bool accepted, gradient;
+} ves_record;
+
+typedef struct ves_search_hooks {
+    void (*progress)(void *data, const ves_progress *progress);
+    void (*record)(void *data, const ves_record *record);
+    bool (*stopped)(void *data); /* true: stop cleanly with the best so far; asked from any worker */
+    void *data;
+} ves_search_hooks;
+
+/* A distinct end of the search: within 1e-3 of the ranges (variables that the objective does not feel left
+ * out) of no better one. */
+typedef struct ves_optimum {
+    const double *x;
+    double value, violation;
+    int hits;    /* how many polishes ended here */
+    bool saddle; /* the second-order check found a direction of negative curvature that could not be left */
+} ves_optimum;
+
+/* One temperature of one annealing stage, all chains together. */
+typedef struct ves_temperature {
+    int stage;
+    double c; /* temperature */
+    long trials, accepted;
+    double mean, variance; /* of the energy */
+} ves_temperature;
+
+/* Everything one search produced. Owned by the caller; one block. */
+typedef struct ves_search_result {
+    int n, m;
+    ves_status status; /* VES_OK, VES_INTERRUPTED */
+    bool any;          /* some candidate could be measured: the rest holds */
+    bool feasible;
+    const double *x; /* [n] best */
+    double value, violation;
+    const double *constraint; /* [m] at the best */
+    long evaluations, gradients;
+    const char *stop; /* a sentence: why the last stage ended */
+    int notes;
+    const char *const
+        *note; /* sentences: saddles left, bests refused by the proof and why, budget too short ... */
+    int optima;
+    const ves_optimum *optimum; /* best first */
+    int temperatures;
+    const ves_temperature *temperature;
+    long failed;  /* candidates without a value */
+    long refused; /* accepted bests refused by VES_WANT_PROOF */
+} ves_search_result;
+
+/* Runs the stages. Negative only for faults (memory, a negative return of evaluate, options out of range); an
+ * infeasible end is VES_OK with feasible == false. VES_INTERRUPTED also gives a result. */
+ves_status ves_search_run(const ves_search_problem *problem, const ves_search_options *options,
+                          const ves_search_hooks *hooks, ves_search_result **result);
+void ves_search_result_destroy(ves_search_result *result);
+
+/* The algorithms a polish may name: NULL-terminated names; what each can do. */
+typedef struct ves_algorithm {
+    const char *name, *about;
+    bool gradient, inequality, equality;
+} ves_algorithm;
+const ves_algorithm *ves_search_algorithms(void); /* ends with name == NULL */
+
+#ifdef __cplusplus
+}
+#endif
+#endif

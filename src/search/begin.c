@@ -1,0 +1,73 @@
+#include <math.h>
+#include <string.h>
+
+#include "search/session.h"
+
+/* The first measured point: the start or, when that fails, the first of some random draws that does not. */
+
+enum { MOST_DRAWS = 2000 };
+
+static ves_status judge(ves_asker *asker, ves_point *point, bool accepted)
+{
+    ves_ask ask = {.x = point->x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+    ves_status status = ves_asker_judge(asker, &ask, &point->verdict);
+    if (status == VES_OK) ves_asker_record(asker, point->x, &point->verdict, false, NAN, accepted);
+    return status;
+}
+
+/* By turns anywhere in the box and near the start, where near has any scale. */
+static void draw(const ves_search_problem *problem, uint64_t seed, uint64_t step, const double *start,
+                 double *u)
+{
+    ves_random random = {.seed = seed, .chain = UINT32_MAX, .step = step};
+    double width = pow(10, -3 * ves_random_uniform(&random));
+    for (int i = 0; i < problem->n; i++)
+        u[i] = step % 2 ? ves_point_reflect(start[i] + width * ves_random_normal(&random))
+                        : ves_random_uniform(&random);
+}
+
+static ves_status look(ves_session *session, ves_asker *asker, ves_point *start)
+{
+    ves_status first = start->verdict.status;
+    double *home = ves_arena_take(&session->arena, (size_t)session->n, sizeof *home);
+    if (!home) return VES_MEMORY;
+    memcpy(home, start->u, (size_t)session->n * sizeof *home);
+    long most = session->budget / 2 < MOST_DRAWS ? session->budget / 2 : MOST_DRAWS;
+    long k = 0;
+    while (start->verdict.status != VES_OK && k < most) {
+        draw(session->problem, session->seed, (uint64_t)k++, home, start->u);
+        ves_point_place(session->problem, start->u, start->x);
+        VES_TRY(judge(asker, start, true));
+    }
+    const char *reason = ves_status_text(first);
+    if (start->verdict.status != VES_OK)
+        ves_session_note(session, "neither the start (%s) nor any of %ld random points can be measured",
+                         reason, k);
+    else
+        ves_session_note(
+            session, "the start cannot be measured (%s); began at the first of %ld random points that can",
+            reason, k);
+    return VES_OK;
+}
+
+ves_status ves_search_begin(ves_session *session)
+{
+    const ves_search_problem *problem = session->problem;
+    ves_point *start = &session->start;
+    for (int i = 0; i < session->n; i++)
+        start->u[i] = (problem->start[i] - problem->lower[i]) / (problem->upper[i] - problem->lower[i]);
+    memcpy(start->x, problem->start, (size_t)session->n * sizeof(double));
+    ves_asker asker;
+    ves_asker_init(&asker, session, 0);
+    ves_status status = judge(&asker, start, true);
+    if (status == VES_OK && start->verdict.status != VES_OK) status = look(session, &asker, start);
+    ves_asker_flush(&asker);
+    ves_asker_destroy(&asker);
+    session->end = ves_session_ends(session, 1);
+    if (!session->end) return VES_MEMORY;
+    if (start->verdict.status == VES_OK) {
+        ves_point_copy(&session->end[0].point, start, session->n, session->m);
+        session->ends = 1;
+    }
+    return status;
+}

@@ -1,0 +1,346 @@
+#include "search/descent.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Scaling is what decides whether SQP works: F = (f - f_0) / max_i |df/du_i|, u in the unit box, constraints
+ * as they are. What NLopt returns is not looked at but for the reason: the best is what we have seen
+ * ourselves. */
+
+enum { RESTARTS = 5, HANG = 20, HANG_LEAST = 10000 };
+
+static const double difference = 3e-8; /* step in u: about sqrt(rounding) */
+
+static bool index_create(ves_descent *d)
+{
+    ves_session *session = d->session;
+    d->inequality = ves_arena_take(&session->arena, (size_t)session->m, sizeof(int));
+    d->equality = ves_arena_take(&session->arena, (size_t)session->m, sizeof(int));
+    if (!d->inequality || !d->equality) return false;
+    for (int j = 0; j < session->m; j++) {
+        bool equality = session->problem->equality && session->problem->equality[j];
+        if (equality)
+            d->equality[d->equalities++] = j;
+        else
+            d->inequality[d->inequalities++] = j;
+    }
+    return true;
+}
+
+bool ves_descent_create(ves_descent *d, ves_session *session, int member, const ves_polish *options,
+                        long budget)
+{
+    size_t n = (size_t)session->n, m = (size_t)session->m;
+    ves_arena *arena = &session->arena;
+    *d = (ves_descent){.session = session, .options = options, .budget = budget};
+    ves_asker_init(&d->asker, session, member);
+    if (!index_create(d)) return false;
+    d->recipe = ves_recipe_find(options->algorithm, session->n, session->problem->gradients);
+    double **rows[] = {&d->range, &d->route, &d->u, &d->x, &d->shifted, &d->from, &d->last.gradient};
+    for (int k = 0; k < 7; k++)
+        if (!(*rows[k] = ves_arena_take(arena, n, sizeof(double)))) return false;
+    double **columns[] = {&d->measured, &d->shifted_constraint, &d->last.constraint, &d->multiplier};
+    for (int k = 0; k < 4; k++)
+        if (!(*columns[k] = ves_arena_take(arena, m, sizeof(double)))) return false;
+    d->last.jacobian = ves_arena_take(arena, m * n, sizeof(double));
+    for (int i = 0; i < session->n; i++)
+        d->range[i] = session->problem->upper[i] - session->problem->lower[i];
+    return d->last.jacobian && ves_point_create(arena, session->n, session->m, &d->best);
+}
+
+void ves_descent_destroy(ves_descent *d)
+{
+    ves_asker_destroy(&d->asker);
+}
+
+static ves_status halt(ves_descent *d, ves_status status)
+{
+    d->halted = true;
+    d->asked = false;
+    if (d->opt) nlopt_force_stop(d->opt);
+    return status;
+}
+
+void ves_descent_keep(const ves_descent *d, ves_point *point)
+{
+    ves_point from = {.verdict = d->last, .u = d->u, .x = d->x};
+    ves_point_copy(point, &from, d->session->n, d->session->m);
+    point->verdict.gradient = point->verdict.jacobian = NULL;
+}
+
+/* The order of all searches, but within the tolerance violations have their price: else the best is always
+ * the candidate that uses the tolerance up. */
+static bool better(const ves_descent *d, const ves_verdict *a, const ves_verdict *b)
+{
+    double tolerance = d->session->tolerance, tight = d->session->tight;
+    bool both = b->status == VES_OK && a->violation <= tolerance && b->violation <= tolerance;
+    if (!both) return ves_verdict_better(a, b, tolerance);
+    return ves_verdict_energy(a, d->price, tight) < ves_verdict_energy(b, d->price, tight);
+}
+
+/* Returns whether the last candidate is the best. */
+static bool remember(ves_descent *d)
+{
+    const ves_session *session = d->session;
+    if (d->last.status != VES_OK) return false;
+    if (session->m) memcpy(d->measured, d->last.constraint, (size_t)session->m * sizeof(double));
+    if (!better(d, &d->last, &d->best.verdict)) return false;
+    ves_descent_keep(d, &d->best);
+    return true;
+}
+
+/* Judges a candidate that has only one coordinate moved. The verdict's arrays are the spare ones. */
+static ves_status shift(ves_descent *d, int i, double u, ves_verdict *verdict)
+{
+    memcpy(d->shifted, d->x, (size_t)d->session->n * sizeof(double));
+    d->shifted[i] = ves_point_scale(d->session->problem, i, u);
+    *verdict = (ves_verdict){.constraint = d->shifted_constraint};
+    ves_ask ask = {.x = d->shifted, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+    VES_TRY(ves_asker_judge(&d->asker, &ask, verdict));
+    d->used++;
+    ves_asker_record(&d->asker, d->shifted, verdict, false, NAN, false);
+    return VES_OK;
+}
+
+/* Forward differences, backward at the upper wall and where the forward candidate fails; where both fail the
+ * slope is 0. */
+static ves_status slope(ves_descent *d, int i)
+{
+    const int n = d->session->n, m = d->session->m;
+    ves_verdict near;
+    double step = d->u[i] + difference <= 1 ? difference : -difference;
+    VES_TRY(shift(d, i, d->u[i] + step, &near));
+    if (near.status != VES_OK) {
+        step = -step;
+        double u = d->u[i] + step;
+        if (u >= 0 && u <= 1) VES_TRY(shift(d, i, u, &near));
+    }
+    double h = d->shifted[i] - d->x[i];
+    bool ok = near.status == VES_OK && h != 0;
+    d->last.gradient[i] = ok ? (near.value - d->last.value) / h : 0;
+    for (int j = 0; j < m; j++)
+        d->last.jacobian[j * n + i] = ok ? (near.constraint[j] - d->last.constraint[j]) / h : 0;
+    return VES_OK;
+}
+
+static bool all_finite(const double *value, int count)
+{
+    for (int k = 0; k < count; k++)
+        if (!isfinite(value[k])) return false;
+    return true;
+}
+
+static ves_status judge(ves_descent *d, bool slopes)
+{
+    const ves_session *session = d->session;
+    bool exact = slopes && session->problem->gradients;
+    ves_ask ask = {.x = d->x, .cutoff = HUGE_VAL, .want = exact ? VES_WANT_GRADIENT : VES_WANT_VALUE};
+    ves_verdict *last = &d->last;
+    VES_TRY(ves_asker_judge(&d->asker, &ask, last));
+    d->used++;
+    if (exact && last->status == VES_OK &&
+        !(all_finite(last->gradient, session->n) && all_finite(last->jacobian, session->n * session->m)))
+        last->status = VES_NO_NUMBER;
+    ves_asker_record(&d->asker, d->x, last, exact, NAN, remember(d));
+    if (slopes && !exact && last->status == VES_OK)
+        for (int i = 0; i < session->n; i++) VES_TRY(slope(d, i));
+    return VES_OK;
+}
+
+ves_status ves_descent_look(ves_descent *d, const double *u, bool slopes)
+{
+    size_t bytes = (size_t)d->session->n * sizeof *u;
+    d->calls++;
+    if (d->asked && !memcmp(u, d->u, bytes) && (d->sloped || !slopes)) {
+        if (d->calls > HANG * d->budget + HANG_LEAST) return halt(d, VES_INTERRUPTED);
+        return VES_OK;
+    }
+    if (d->used >= d->budget) return halt(d, VES_INTERRUPTED);
+    d->asked = false;
+    if (!all_finite(u, d->session->n)) {
+        d->last.status = VES_NO_NUMBER;
+        return VES_OK;
+    }
+    for (int i = 0; i < d->session->n; i++) d->u[i] = u[i] < 0 ? 0 : u[i] > 1 ? 1 : u[i];
+    ves_point_place(d->session->problem, d->u, d->x);
+    ves_status status = judge(d, slopes);
+    if (status != VES_OK) return halt(d, status);
+    d->asked = true;
+    d->sloped = slopes;
+    return VES_OK;
+}
+
+/* Exact slopes come cheapest with the value: one question for each candidate. Differences only when they are
+ * wanted. */
+static ves_status look(ves_descent *d, const double *u, bool slopes)
+{
+    bool exact = d->recipe.gradient && d->session->problem->gradients;
+    return ves_descent_look(d, u, slopes || exact);
+}
+
+/* A failed candidate is worse than all that was seen, but not by so much that models of f are spoiled. */
+static double objective(unsigned n, const double *u, double *gradient, void *data)
+{
+    ves_descent *d = data;
+    ves_status status = look(d, u, gradient != NULL);
+    bool failed = status != VES_OK || d->last.status != VES_OK;
+    for (unsigned i = 0; gradient && i < n; i++) {
+        double slope = failed ? 0 : d->last.gradient[i] / d->scale;
+        if (!failed && d->penalty > 0) slope += ves_lagrange_slope(d, (int)i);
+        gradient[i] = slope * d->range[i] / d->shrink;
+    }
+    if (failed) return d->highest + 1 + (d->highest - d->lowest);
+    double value = (d->last.value - d->offset) / d->scale;
+    if (d->penalty > 0) value += ves_lagrange_value(d);
+    value /= d->shrink;
+    if (value < d->lowest) d->lowest = value;
+    if (value > d->highest) d->highest = value;
+    return value;
+}
+
+static void constraints(ves_descent *d, const int *index, unsigned count, double *result, unsigned n,
+                        const double *u, double *gradient)
+{
+    ves_status status = look(d, u, gradient != NULL);
+    bool failed = status != VES_OK || d->last.status != VES_OK;
+    for (unsigned k = 0; k < count; k++) {
+        int j = index[k];
+        result[k] = failed ? d->measured[j] : d->last.constraint[j];
+        for (unsigned i = 0; gradient && i < n; i++)
+            gradient[k * n + i] = failed ? 0 : d->last.jacobian[j * (int)n + (int)i] * d->range[i];
+    }
+}
+
+static void inequalities(unsigned count, double *result, unsigned n, const double *u, double *gradient,
+                         void *data)
+{
+    ves_descent *d = data;
+    constraints(d, d->inequality, count, result, n, u, gradient);
+}
+
+static void equalities(unsigned count, double *result, unsigned n, const double *u, double *gradient,
+                       void *data)
+{
+    ves_descent *d = data;
+    constraints(d, d->equality, count, result, n, u, gradient);
+}
+
+/* Tolerances are absolute in scaled quantities, which makes them relative to the range and to f itself. */
+static bool tolerances(const ves_descent *d, nlopt_opt opt, double factor)
+{
+    double size = fmax(fabs(d->offset), 1e-6 * d->scale) / d->scale;
+    return nlopt_set_ftol_abs(opt, factor * d->options->f_tolerance * size) > 0 &&
+           nlopt_set_xtol_abs1(opt, factor * d->options->x_tolerance) > 0;
+}
+
+static bool set_up(ves_descent *d, double step, double factor)
+{
+    d->opt = nlopt_create(d->recipe.id, (unsigned)d->session->n);
+    if (!d->opt) return false;
+    bool ok = nlopt_set_min_objective(d->opt, objective, d) > 0 && nlopt_set_lower_bounds1(d->opt, 0) > 0 &&
+              nlopt_set_upper_bounds1(d->opt, 1) > 0;
+    ok = ok && tolerances(d, d->opt, factor);
+    if (!d->recipe.gradient) ok = ok && nlopt_set_initial_step1(d->opt, step) > 0;
+    double *limit = d->shifted_constraint; /* spare here, and NLopt copies */
+    for (int j = 0; j < d->session->m; j++) limit[j] = d->session->tight;
+    if (d->inequalities && !d->recipe.inequalities)
+        ok = ok &&
+             nlopt_add_inequality_mconstraint(d->opt, (unsigned)d->inequalities, inequalities, d, limit) > 0;
+    if (d->equalities && !d->recipe.equalities)
+        ok = ok && nlopt_add_equality_mconstraint(d->opt, (unsigned)d->equalities, equalities, d, limit) > 0;
+    return ok;
+}
+
+/* The largest slope at the candidate just looked at; without slopes, a guess from the spread or the size of
+ * f. */
+static double steepest(const ves_descent *d)
+{
+    double most = 0;
+    for (int i = 0; d->sloped && i < d->session->n; i++)
+        most = fmax(most, fabs(d->last.gradient[i]) * d->range[i]);
+    return most;
+}
+
+/* A multiplier is about the slope of f over that of the constraint; ten times that, for the flattest
+ * constraint. */
+static double fair_price(const ves_descent *d)
+{
+    double flattest = 1;
+    int n = d->session->n;
+    for (int j = 0; d->sloped && j < d->session->m; j++) {
+        double most = 0;
+        for (int i = 0; i < n; i++) most = fmax(most, fabs(d->last.jacobian[j * n + i]) * d->range[i]);
+        if (most > 1e-3 && most < flattest) flattest = most;
+    }
+    return 10 * d->first_scale / flattest;
+}
+
+/* Scales f at u. A restart near a minimum keeps a part of the first scale: there the slopes are all but gone.
+ */
+static ves_status rescale(ves_descent *d, const double *u, bool first)
+{
+    bool slopes = d->recipe.gradient || (first && d->budget - d->used > 10L * d->session->n);
+    VES_TRY(ves_descent_look(d, u, slopes));
+    double size = fmax(fabs(d->last.value), d->session->spread);
+    double most = steepest(d);
+    if (first) {
+        d->first_scale = most > 1e-12 * size ? most : size > 0 ? size : 1;
+        d->scale = d->first_scale;
+        d->price = fair_price(d);
+    } else
+        d->scale = fmax(most, 1e-3 * d->first_scale);
+    d->offset = d->last.value;
+    d->lowest = d->highest = 0;
+    return VES_OK;
+}
+
+ves_status ves_descent_minimise(ves_descent *d, double step, double factor)
+{
+    d->code = NLOPT_OUT_OF_MEMORY;
+    bool ok = set_up(d, step, factor);
+    double value;
+    if (ok) d->code = nlopt_optimize(d->opt, d->route, &value);
+    nlopt_destroy(d->opt);
+    d->opt = NULL;
+    return d->code == NLOPT_OUT_OF_MEMORY ? VES_MEMORY : VES_OK;
+}
+
+static ves_status once(ves_descent *d, double step)
+{
+    bool wrapped = (d->inequalities && d->recipe.inequalities) || (d->equalities && d->recipe.equalities);
+    return wrapped ? ves_lagrange_run(d, step) : ves_descent_minimise(d, step, 1);
+}
+
+static bool progressed(const ves_descent *d, const ves_verdict *before, const ves_verdict *after)
+{
+    if (before->violation > d->session->tight && after->violation < 0.5 * before->violation) return true;
+    double size = fmax(fabs(after->value), 1e-6 * d->first_scale);
+    return before->value - after->value > 10 * d->options->f_tolerance * size;
+}
+
+static void forget(ves_descent *d, const ves_point *start)
+{
+    ves_point_copy(&d->best, start, d->session->n, d->session->m);
+    for (int j = 0; j < d->session->m; j++) d->measured[j] = start->verdict.constraint[j];
+    d->halted = d->asked = false;
+    d->scale = d->shrink = 1;
+    d->offset = d->lowest = d->highest = d->price = d->penalty = 0;
+}
+
+ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *end)
+{
+    int n = d->session->n, m = d->session->m;
+    forget(d, start);
+    ves_point_copy(end, start, n, m);
+    ves_status status = VES_OK;
+    double step = 0.1;
+    for (int k = 0; k < RESTARTS && status == VES_OK && !d->halted; k++, step *= 0.3) {
+        memcpy(d->route, end->u, (size_t)n * sizeof(double));
+        status = rescale(d, end->u, k == 0);
+        if (status == VES_OK) status = once(d, step);
+        ves_verdict before = end->verdict;
+        ves_point_copy(end, &d->best, n, m);
+        if (k && !progressed(d, &before, &end->verdict)) break;
+    }
+    return d->asker.fault ? d->asker.fault : status;
+}

@@ -1,0 +1,67 @@
+/* One local descent by NLopt, with its habits hidden: scaled quantities, our own record of the best,
+ * candidates that fail, restarts. Belongs to one task of a polish; allocates nothing but what NLopt takes. */
+#ifndef VES_SEARCH_DESCENT_H
+#define VES_SEARCH_DESCENT_H
+
+#include "search/algorithms.h"
+#include "search/session.h"
+
+typedef struct ves_descent {
+    ves_session *session;
+    ves_asker asker;
+    const ves_polish *options;
+    ves_recipe recipe;
+    int inequalities, equalities;
+    int *inequality, *equality; /* indices of the constraints */
+    double *range;              /* [n] upper - lower */
+
+    long budget, used, calls; /* evaluations of this task; questions of NLopt, cached ones too */
+    nlopt_opt opt;            /* while it runs */
+    nlopt_result code;        /* of the last run */
+    bool halted;              /* budget or interrupt: NLopt has been told to stop */
+
+    double *route; /* [n] NLopt's own x */
+    double *u, *x; /* [n] the last candidate */
+    ves_verdict last;
+    bool asked, sloped; /* last holds a verdict for u; with derivatives */
+    double *measured;   /* [m] constraints of the last candidate that did not fail */
+    double *shifted;    /* [n] and [m]: candidates of the differences */
+    double *shifted_constraint;
+
+    double offset, scale; /* NLopt sees (f - offset) / scale */
+    double first_scale;
+    double price; /* of f for a unit of violation within the tolerance: more than any multiplier is likely to
+                     be */
+    double lowest, highest; /* of what NLopt was told, but for failures */
+    double *multiplier;     /* [m] of an augmented Lagrangian; its penalty; 0: none runs */
+    double penalty;
+    double *from;   /* [n] where its round began */
+    double shrink;  /* what NLopt sees is divided by this: L is steep far from the constraints */
+    ves_point best; /* our own record */
+} ves_descent;
+
+/* False when out of memory. */
+bool ves_descent_create(ves_descent *descent, ves_session *session, int member, const ves_polish *options,
+                        long budget);
+void ves_descent_destroy(ves_descent *descent);
+
+/* From start to end. Returns a fault or VES_INTERRUPTED; end holds in any case. */
+ves_status ves_descent_run(ves_descent *descent, const ves_point *start, ves_point *end);
+
+/* Judges u (unit box), once; the answer is in descent->last. A candidate that fails is last.status > 0.
+ * VES_INTERRUPTED also when the budget is spent. */
+ves_status ves_descent_look(ves_descent *descent, const double *u, bool slopes);
+
+/* Copies what was last judged into a point. */
+void ves_descent_keep(const ves_descent *descent, ves_point *point);
+
+/* One run of NLopt from descent->route, and to there; tolerances times factor, first step for those without
+ * gradients. */
+ves_status ves_descent_minimise(ves_descent *descent, double step, double factor);
+
+/* lagrange.c: an augmented Lagrangian for the constraints that the algorithm does not take. */
+ves_status ves_lagrange_run(ves_descent *descent, double step);
+double ves_lagrange_value(const ves_descent *descent);
+double ves_lagrange_slope(const ves_descent *descent, int i);
+
+#endif

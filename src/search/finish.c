@@ -1,0 +1,226 @@
+#include <math.h>
+#include <string.h>
+
+#include "search/session.h"
+
+/* What a search ends in: the proved best, the distinct ends, the result. */
+
+static const double near = 1e-3;    /* of the ranges: the same optimum */
+static const double level = 1e-6;   /* relative: values that may belong to one flat optimum */
+static const double barrier = 1e-9; /* relative: what lies between two points of one basin */
+
+typedef struct box {
+    ves_search_result result; /* first: what the caller holds */
+    ves_arena arena;
+} box;
+
+/* Judges the point between a and b; HUGE_VAL where it fails or is not feasible. */
+static ves_status between(ves_asker *asker, const ves_point *a, const ves_point *b, double t,
+                          ves_point *point, double *value)
+{
+    const ves_session *session = asker->session;
+    for (int i = 0; i < session->n; i++) point->u[i] = a->u[i] + t * (b->u[i] - a->u[i]);
+    ves_point_place(session->problem, point->u, point->x);
+    ves_ask ask = {.x = point->x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+    VES_TRY(ves_asker_judge(asker, &ask, &point->verdict));
+    ves_asker_record(asker, point->x, &point->verdict, false, NAN, false);
+    bool good = point->verdict.status == VES_OK && point->verdict.violation <= session->tolerance;
+    *value = good ? point->verdict.value : HUGE_VAL;
+    return VES_OK;
+}
+
+/* Two ends of the same value, far apart, are one optimum when the objective is flat between them: they differ
+ * only in variables that it does not feel. */
+static ves_status flat(ves_asker *asker, const ves_point *a, const ves_point *b, ves_point *point, bool *same)
+{
+    ves_session *session = asker->session;
+    const ves_verdict *start = &session->start.verdict;
+    double fa = a->verdict.value, fb = b->verdict.value;
+    double size = fmax(fmax(fabs(fa), fabs(fb)), 1e-3 * fabs(start->value - fa));
+    *same = false;
+    if (fabs(fa - fb) > level * size || ves_session_left(session) < asker->evaluations + 3) return VES_OK;
+    for (int k = 1; k <= 3; k++) {
+        double value;
+        VES_TRY(between(asker, a, b, 0.25 * k, point, &value));
+        if (value > fmax(fa, fb) + barrier * size) return VES_OK;
+    }
+    *same = true;
+    return VES_OK;
+}
+
+static ves_status alike(ves_asker *asker, const ves_point *a, const ves_point *b, ves_point *point,
+                        bool *same)
+{
+    double apart = 0;
+    for (int i = 0; i < asker->session->n; i++) apart = fmax(apart, fabs(a->u[i] - b->u[i]));
+    *same = apart < near;
+    return *same || ves_session_over(asker->session) ? VES_OK : flat(asker, a, b, point, same);
+}
+
+typedef struct clusters {
+    int count;
+    ves_end *first; /* the best of each */
+    int *hits;
+} clusters;
+
+static void cluster_add(clusters *c, ves_session *session, const ves_end *end, int hits)
+{
+    ves_point_copy(&c->first[c->count].point, &end->point, session->n, session->m);
+    c->first[c->count].saddle = end->saddle;
+    c->hits[c->count++] = hits;
+}
+
+/* Puts one end into the cluster that it belongs to, or into a new one when it passes its proof. */
+static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_point *point)
+{
+    ves_session *session = asker->session;
+    for (int k = 0; k < c->count; k++) {
+        bool same;
+        VES_TRY(alike(asker, &c->first[k].point, &end->point, point, &same));
+        if (!same) continue;
+        c->hits[k]++;
+        if (end->saddle && !memcmp(c->first[k].point.u, end->point.u, (size_t)session->n * sizeof(double)))
+            c->first[k].saddle = true;
+        return VES_OK;
+    }
+    bool good = true;
+    if (!ves_session_over(session)) VES_TRY(ves_session_prove(session, &end->point, &good));
+    if (good) cluster_add(c, session, end, 1);
+    return VES_OK;
+}
+
+static ves_status cluster(clusters *c, ves_session *session, const ves_point *best)
+{
+    ves_point point;
+    c->first = ves_session_ends(session, session->ends + 1);
+    c->hits = ves_arena_take(&session->arena, (size_t)session->ends + 1, sizeof(int));
+    if (!c->first || !c->hits || !ves_point_create(&session->arena, session->n, session->m, &point))
+        return VES_MEMORY;
+    ves_end first = {.point = *best};
+    cluster_add(c, session, &first, 0);
+    ves_asker asker;
+    ves_asker_init(&asker, session, -1);
+    ves_status status = VES_OK;
+    for (int k = 0; k < session->ends && status == VES_OK; k++)
+        status = cluster_sort(c, &asker, &session->end[k], &point);
+    ves_asker_flush(&asker);
+    ves_asker_destroy(&asker);
+    if (!c->hits[0]) c->hits[0] = 1;
+    return status == VES_INTERRUPTED ? VES_OK : status;
+}
+
+/* The best that may be shown: proved or, when nothing passes, the best all the same, as infeasible. */
+static ves_status choose(ves_session *session, const ves_point **best, bool *proved)
+{
+    bool refused;
+    ves_point *start = &session->start;
+    VES_TRY(ves_session_offer(session, &start, 1, &refused));
+    *proved = session->best.verdict.status == VES_OK;
+    *best = *proved ? &session->best : start;
+    if (*proved || start->verdict.status != VES_OK) return VES_OK;
+    if (session->ends && ves_session_better(session, &session->end[0].point.verdict, &start->verdict))
+        *best = &session->end[0].point;
+    ves_session_note(session, "no best passed its proof: the result is unproved and counts as infeasible");
+    return VES_OK;
+}
+
+static double *copy(ves_arena *arena, const double *from, int count)
+{
+    double *to = ves_arena_take(arena, (size_t)count, sizeof *to);
+    if (to && count) memcpy(to, from, (size_t)count * sizeof *to);
+    return to;
+}
+
+static bool fill_best(ves_search_result *r, ves_session *session, const ves_point *best, bool proved)
+{
+    r->any = best->verdict.status == VES_OK;
+    r->feasible = r->any && proved && best->verdict.violation <= session->tolerance;
+    r->value = best->verdict.value;
+    r->violation = best->verdict.violation;
+    r->x = copy(&session->kept, best->x, session->n);
+    r->constraint = copy(&session->kept, best->verdict.constraint, session->m);
+    return r->x && r->constraint;
+}
+
+static bool fill_optima(ves_search_result *r, ves_session *session, const clusters *c)
+{
+    ves_optimum *optimum = ves_arena_take(&session->kept, (size_t)c->count, sizeof *optimum);
+    for (int k = 0; optimum && k < c->count; k++) {
+        const ves_end *end = &c->first[k];
+        optimum[k] = (ves_optimum){.value = end->point.verdict.value,
+                                   .violation = end->point.verdict.violation,
+                                   .hits = c->hits[k],
+                                   .saddle = end->saddle,
+                                   .x = copy(&session->kept, end->point.x, session->n)};
+        if (!optimum[k].x) return false;
+    }
+    r->optimum = optimum;
+    r->optima = c->count;
+    return optimum;
+}
+
+static bool fill_logs(ves_search_result *r, ves_session *session)
+{
+    const char **note = ves_arena_take(&session->kept, (size_t)session->notes, sizeof *note);
+    ves_temperature *log_copy =
+        ves_arena_take(&session->kept, (size_t)session->temperatures, sizeof *log_copy);
+    if (!note || !log_copy) return false;
+    for (int k = 0; k < session->notes; k++) note[k] = session->note[k];
+    for (int k = 0; k < session->temperatures; k++) log_copy[k] = session->temperature_log[k];
+    r->note = note;
+    r->notes = session->notes;
+    r->temperature = log_copy;
+    r->temperatures = session->temperatures;
+    r->stop = session->stop;
+    r->evaluations = session->evaluations;
+    r->gradients = session->gradients;
+    r->failed = session->failed;
+    r->refused = session->refused;
+    return true;
+}
+
+static ves_status fill(box *b, ves_session *session)
+{
+    ves_search_result *r = &b->result;
+    const ves_point *best;
+    bool proved;
+    clusters c = {0};
+    VES_TRY(choose(session, &best, &proved));
+    if (best->verdict.status == VES_OK) VES_TRY(cluster(&c, session, best));
+    if (session->fault) return session->fault;
+    r->n = session->n;
+    r->m = session->m;
+    if (atomic_load(&session->stopped)) {
+        r->status = VES_INTERRUPTED;
+        session->stop = ves_status_text(VES_INTERRUPTED);
+    }
+    if (proved && best->verdict.violation > session->tolerance)
+        ves_session_note(session, "no feasible candidate was found: the least violation is %.3g",
+                         best->verdict.violation);
+    if (session->fault) return session->fault;
+    bool ok = fill_best(r, session, best, proved) && fill_optima(r, session, &c) && fill_logs(r, session);
+    return ok ? VES_OK : VES_MEMORY;
+}
+
+ves_status ves_search_finish(ves_session *session, ves_search_result **result)
+{
+    box *b = ves_memory_take(sizeof *b);
+    if (!b) return VES_MEMORY;
+    ves_status status = fill(b, session);
+    if (status != VES_OK) {
+        ves_memory_free(b);
+        return status;
+    }
+    b->arena = session->kept;
+    session->kept = (ves_arena){0};
+    *result = &b->result;
+    return b->result.status;
+}
+
+void ves_search_result_destroy(ves_search_result *result)
+{
+    if (!result) return;
+    box *b = (box *)result;
+    ves_arena_destroy(&b->arena);
+    ves_memory_free(b);
+}

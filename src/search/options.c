@@ -1,0 +1,169 @@
+#include <math.h>
+#include <string.h>
+
+#include "search/algorithms.h"
+#include "search/session.h"
+
+ves_anneal ves_anneal_default(void)
+{
+    return (ves_anneal){.c0 = NAN, .s = NAN, .c_end = NAN, .step = NAN, .adapt = true, .weight = NAN};
+}
+
+ves_polish ves_polish_default(void)
+{
+    return (ves_polish){.x_tolerance = NAN, .f_tolerance = NAN, .escape = true};
+}
+
+ves_search_options ves_search_options_default(void)
+{
+    return (ves_search_options){.seed = 1};
+}
+
+/* 0 and NAN both leave the choice to the search. */
+static bool given(double value)
+{
+    return !isnan(value) && value != 0;
+}
+
+static double positive_or(double value, double other)
+{
+    return given(value) ? value : other;
+}
+
+static ves_status check_box(const ves_search_problem *problem)
+{
+    if (problem->n < 1 || problem->m < 0 || problem->workers < 0 || !problem->evaluate) return VES_RANGE;
+    if (!problem->lower || !problem->upper || !problem->start || problem->tolerance < 0) return VES_RANGE;
+    for (int i = 0; i < problem->n; i++) {
+        double lower = problem->lower[i], upper = problem->upper[i], start = problem->start[i];
+        if (!isfinite(lower) || !isfinite(upper) || !isfinite(upper - lower) || !(lower < upper))
+            return VES_RANGE;
+        if (!(start >= lower && start <= upper)) return VES_RANGE;
+    }
+    return VES_OK;
+}
+
+static bool bad(double value)
+{
+    return given(value) && !(value > 0 && isfinite(value));
+}
+
+static ves_status check_anneal(const ves_anneal *a)
+{
+    if (a->evaluations < 0 || a->chains < 0) return VES_RANGE;
+    if (bad(a->c0) || bad(a->c_end) || bad(a->step) || bad(a->weight)) return VES_RANGE;
+    if (given(a->c_end) && a->c_end > 1) return VES_RANGE;
+    if (given(a->step) && a->step > 1) return VES_RANGE;
+    return given(a->s) && !(a->s > 0 && a->s < 1) ? VES_RANGE : VES_OK;
+}
+
+static ves_status check_polish(const ves_polish *p)
+{
+    if (p->evaluations < 0 || p->starts < 0 || bad(p->x_tolerance) || bad(p->f_tolerance)) return VES_RANGE;
+    const ves_algorithm *a = ves_search_algorithms();
+    while (p->algorithm && a->name && strcmp(a->name, p->algorithm)) a++;
+    return a->name ? VES_OK : VES_RANGE;
+}
+
+ves_status ves_search_check(const ves_search_problem *problem, const ves_search_options *options)
+{
+    VES_TRY(check_box(problem));
+    if (options->stages < 0 || options->stages > VES_STAGES || options->evaluations < 0) return VES_RANGE;
+    for (int k = 0; k < options->stages; k++) {
+        const ves_stage *stage = &options->stage[k];
+        if (stage->kind == VES_STAGE_ANNEAL)
+            VES_TRY(check_anneal(&stage->anneal));
+        else if (stage->kind == VES_STAGE_POLISH)
+            VES_TRY(check_polish(&stage->polish));
+        else
+            return VES_RANGE;
+    }
+    return VES_OK;
+}
+
+const char *ves_search_algorithm(const ves_search_problem *problem, const ves_polish *polish)
+{
+    if (polish->algorithm) return polish->algorithm;
+    if (problem->gradients) return "slsqp";
+    return problem->m || problem->n < 2 ? "cobyla" : "bobyqa";
+}
+
+/* What a polish may cost. Superlinear methods need some tens of steps; models without gradients a few hundred
+ * for each variable; differences pay n + 1 evaluations for each step. */
+static long polish_budget(const ves_search_problem *problem, const ves_polish *polish, int starts)
+{
+    long n = problem->n;
+    const char *name = ves_search_algorithm(problem, polish);
+    bool gradient = ves_recipe_find(name, problem->n, problem->gradients).gradient;
+    long steps = 500 + 40 * n;
+    if (!strcmp(name, "mma") || !strcmp(name, "ccsa")) steps *= 5; /* of first order */
+    if (gradient && problem->gradients) return starts * steps;
+    if (gradient) return starts * steps / 2 * (n + 1);
+    return starts * (2000 + 400 * n);
+}
+
+static void complete_anneal(ves_anneal *a, int n)
+{
+    if (!a->chains) a->chains = 4;
+    if (!a->evaluations) a->evaluations = 2000 + 2000 * (long)n;
+    a->c0 = positive_or(a->c0, NAN);
+    a->s = positive_or(a->s, NAN);
+    a->c_end = positive_or(a->c_end, 1e-4);
+    a->step = positive_or(a->step, 0.1);
+    a->weight = positive_or(a->weight, NAN);
+}
+
+static long asked(const ves_stage *stage)
+{
+    return stage->kind == VES_STAGE_ANNEAL ? stage->anneal.evaluations : stage->polish.evaluations;
+}
+
+/* With gradients a polish costs less than a chain's warm-up: many short chains find more basins than few long ones. */
+enum { AUTO_CHAINS = 16, AUTO_CHAINS_VALUES = 8 };
+
+/* Fills in every default, so that the stages need not. */
+void ves_search_complete(ves_session *session, const ves_search_options *options)
+{
+    const ves_search_problem *problem = session->problem;
+    session->stages = options->stages;
+    memcpy(session->stage, options->stage, sizeof session->stage);
+    if (!options->stages) {
+        session->stages = 2;
+        session->stage[0] = (ves_stage){.kind = VES_STAGE_ANNEAL, .anneal = ves_anneal_default()};
+        session->stage[0].anneal.chains = problem->gradients ? AUTO_CHAINS : AUTO_CHAINS_VALUES;
+        session->stage[1] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = ves_polish_default()};
+    }
+    long sum = 0;
+    int ends = 1;
+    for (int k = 0; k < session->stages; k++) {
+        ves_stage *stage = &session->stage[k];
+        session->grows[k] = options->evaluations && !asked(stage);
+        if (stage->kind == VES_STAGE_ANNEAL) {
+            complete_anneal(&stage->anneal, problem->n);
+            ends = stage->anneal.chains;
+            sum += stage->anneal.evaluations;
+        } else {
+            ves_polish *p = &stage->polish;
+            if (!p->starts || p->starts > ends) p->starts = ends;
+            if (!p->evaluations) p->evaluations = polish_budget(problem, p, p->starts);
+            p->algorithm = ves_search_algorithm(problem, p);
+            p->x_tolerance = positive_or(p->x_tolerance, 1e-9);
+            p->f_tolerance = positive_or(p->f_tolerance, 1e-12);
+            ends = p->starts;
+            sum += p->evaluations;
+        }
+    }
+    session->budget = options->evaluations ? options->evaluations : sum + 1; /* and the start */
+}
+
+/* What is left of the whole budget is shared in proportion to what the stages to come would take by
+ * themselves, so that what one does not use goes to the next. A stage grows beyond that only when a budget
+ * for the whole search was given and none for it. */
+long ves_search_share(const ves_session *session, int stage)
+{
+    long left = ves_session_left(session), own = asked(&session->stage[stage]);
+    double sum = 0;
+    for (int k = stage; k < session->stages; k++) sum += (double)asked(&session->stage[k]);
+    long share = stage == session->stages - 1 ? left : (long)((double)left * ((double)own / sum));
+    return session->grows[stage] || share < own ? share : own;
+}

@@ -1,0 +1,52 @@
+#include "search/session.h"
+
+/* The one loop: stages one after another, each from the ends of the one before. */
+
+static ves_status stage_run(ves_session *session, int k)
+{
+    long budget = ves_search_share(session, k);
+    session->stage_index = k;
+    const ves_stage *stage = &session->stage[k];
+    return stage->kind == VES_STAGE_ANNEAL ? ves_anneal_run(session, &stage->anneal, budget)
+                                           : ves_polish_run(session, &stage->polish, budget);
+}
+
+static ves_status work(ves_session *session)
+{
+    VES_TRY(ves_search_begin(session));
+    if (session->fault) return session->fault;
+    if (!session->ends) {
+        ves_session_stop(session, "no candidate could be measured");
+        return VES_OK;
+    }
+    for (int k = 0; k < session->stages; k++) {
+        if (ves_session_over(session)) return session->fault;
+        if (ves_session_left(session) <= 0) {
+            ves_session_note(session, "the budget of %ld evaluations was spent before stage %d",
+                             session->budget, k + 1);
+            return VES_OK;
+        }
+        VES_TRY(stage_run(session, k));
+    }
+    return session->fault;
+}
+
+ves_status ves_search_run(const ves_search_problem *problem, const ves_search_options *options,
+                          const ves_search_hooks *hooks, ves_search_result **result)
+{
+    *result = NULL;
+    ves_search_options defaults = ves_search_options_default();
+    if (!options) options = &defaults;
+    VES_TRY(ves_search_check(problem, options));
+    ves_session session;
+    ves_status status = ves_session_init(&session, problem, options, hooks);
+    if (status == VES_OK) status = work(&session);
+    if (status == VES_OK || status == VES_INTERRUPTED) {
+        if (session.fault)
+            status = session.fault;
+        else
+            status = ves_search_finish(&session, result);
+    }
+    ves_session_destroy(&session);
+    return status;
+}

@@ -1,0 +1,283 @@
+#include "search/saddle.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "search/eigen.h"
+
+/* Hessian of the Lagrangian  L = f + sum_j lambda_j c_j  on what the active walls and constraints leave free
+ * (Nocedal and Wright, 12.5). With P the projection along the active gradients, the eigenvalues of P H P are
+ * those of the reduced Hessian and zeros. H from central differences of exact gradients: 2 gradients for each
+ * free variable. Zero eigenvalues are flat directions (a shape's own symmetries, idle variables), not
+ * saddles. test   x^4/4 - x^2/2 + y^2 from (0, 1); a flat valley; saddles on constraints */
+
+static const double step = 2e-5;       /* in u: truncation ~ 1e-10, noise of a gradient / 2e-5 */
+static const double near_wall = 1e-9;  /* in u */
+static const double near_limit = 1e-6; /* scaled excess of an active constraint */
+static const double clear = 1e-5;      /* a negative eigenvalue counts beyond this part of the largest */
+
+bool ves_saddle_create(ves_saddle *s, ves_session *session)
+{
+    size_t n = (size_t)session->n, m = (size_t)session->m;
+    ves_arena *arena = &session->arena;
+    *s = (ves_saddle){0};
+    double **planes[] = {&s->basis, &s->factor, &s->hessian, &s->vector};
+    for (int k = 0; k < 4; k++)
+        if (!(*planes[k] = ves_arena_take(arena, n * n, sizeof(double)))) return false;
+    double **rows[] = {&s->base, &s->slope, &s->plus, &s->minus, &s->value, &s->direction, &s->trial};
+    for (int k = 0; k < 7; k++)
+        if (!(*rows[k] = ves_arena_take(arena, n, sizeof(double)))) return false;
+    s->multiplier = ves_arena_take(arena, m, sizeof(double));
+    s->row = ves_arena_take(arena, m, sizeof(int));
+    s->free = ves_arena_take(arena, n, sizeof(int));
+    return s->multiplier && s->row && s->free;
+}
+
+static double dot(int n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (int i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+/* Gradient of the Lagrangian where the descent has just looked, scaled to the unit box. */
+static void lagrangian_slope(const ves_saddle *s, const ves_descent *d, double *slope)
+{
+    int n = d->session->n;
+    for (int i = 0; i < n; i++) {
+        double sum = d->last.gradient[i];
+        for (int j = 0; j < d->session->m; j++) sum += s->multiplier[j] * d->last.jacobian[j * n + i];
+        slope[i] = sum * d->range[i];
+    }
+}
+
+static double lagrangian(const ves_saddle *s, const ves_descent *d)
+{
+    return d->last.value + dot(d->session->m, s->multiplier, d->last.constraint);
+}
+
+/* Gram-Schmidt, twice for orthogonality, on the active gradients restricted to the free variables: row r of
+ * the Jacobian is sum_k factor[k][r] basis[k]. A row that depends on the others is dropped from the active
+ * ones. */
+static void span(ves_saddle *s, const ves_descent *d)
+{
+    int n = d->session->n, nf = s->frees, rank = 0;
+    for (int r = 0; r < s->active && rank < nf; r++) {
+        double *q = s->basis + rank * nf;
+        for (int i = 0; i < nf; i++)
+            q[i] = d->last.jacobian[s->row[r] * n + s->free[i]] * d->range[s->free[i]];
+        double size = sqrt(dot(nf, q, q));
+        for (int k = 0; k < rank; k++) s->factor[k * n + rank] = 0;
+        for (int pass = 0; pass < 2; pass++)
+            for (int k = 0; k < rank; k++) {
+                double along = dot(nf, s->basis + k * nf, q);
+                s->factor[k * n + rank] += along;
+                for (int i = 0; i < nf; i++) q[i] -= along * s->basis[k * nf + i];
+            }
+        double left = sqrt(dot(nf, q, q));
+        if (!(left > 1e-9 * size)) continue;
+        for (int i = 0; i < nf; i++) q[i] /= left;
+        s->factor[rank * n + rank] = left;
+        s->row[rank++] = s->row[r];
+    }
+    s->active = rank;
+}
+
+/* Least-squares multipliers: factor lambda = - basis g. */
+static void solve(ves_saddle *s, const ves_descent *d)
+{
+    int n = d->session->n, nf = s->frees;
+    memset(s->multiplier, 0, (size_t)d->session->m * sizeof(double));
+    for (int i = 0; i < nf; i++) s->trial[i] = d->last.gradient[s->free[i]] * d->range[s->free[i]];
+    for (int k = s->active - 1; k >= 0; k--) {
+        double sum = -dot(nf, s->basis + k * nf, s->trial);
+        for (int r = k + 1; r < s->active; r++) sum -= s->factor[k * n + r] * s->multiplier[s->row[r]];
+        s->multiplier[s->row[k]] = sum / s->factor[k * n + k];
+    }
+}
+
+static bool is_equality(const ves_descent *d, int j)
+{
+    return d->session->problem->equality && d->session->problem->equality[j];
+}
+
+/* The inequality that pulls hardest the wrong way is not active; returns its place, or -1. */
+static int wrong(const ves_saddle *s, const ves_descent *d)
+{
+    int worst = -1;
+    for (int k = 0; k < s->active; k++) {
+        int j = s->row[k];
+        if (is_equality(d, j) || s->multiplier[j] >= 0) continue;
+        if (worst < 0 || s->multiplier[j] < s->multiplier[s->row[worst]]) worst = k;
+    }
+    return worst;
+}
+
+static void multipliers(ves_saddle *s, const ves_descent *d)
+{
+    int rows = 0;
+    for (int j = 0; j < d->session->m; j++)
+        if (is_equality(d, j) || d->last.constraint[j] >= -near_limit) s->row[rows++] = j;
+    for (s->active = rows;;) {
+        span(s, d);
+        solve(s, d);
+        int k = wrong(s, d);
+        if (k < 0) return;
+        memmove(s->row + k, s->row + k + 1, (size_t)(--s->active - k) * sizeof(int));
+    }
+}
+
+/* Free: off the walls, or at one that the slope does not press against. */
+static void release(ves_saddle *s, const ves_descent *d, bool pressed)
+{
+    double most = 0;
+    for (int i = 0; pressed && i < d->session->n; i++)
+        most = fmax(most, fabs(d->last.gradient[i]) * d->range[i]);
+    s->frees = 0;
+    for (int i = 0; i < d->session->n; i++) {
+        bool low = d->u[i] <= near_wall, high = d->u[i] >= 1 - near_wall;
+        double noise = 1e-7 * (most + d->first_scale);
+        bool held =
+            (low && !(pressed && s->slope[i] <= noise)) || (high && !(pressed && s->slope[i] >= -noise));
+        if (!held) s->free[s->frees++] = i;
+    }
+}
+
+/* Slope of the Lagrangian at base + h e_i, where h is cut at the wall; h = 0 when it cannot be had. */
+static ves_status slope_at(ves_saddle *s, ves_descent *d, int i, double *h, double *slope)
+{
+    double u = s->base[i] + *h;
+    u = u < 0 ? 0 : u > 1 ? 1 : u;
+    *h = u - s->base[i];
+    if (fabs(*h) < 0.1 * step) *h = 0;
+    memcpy(slope, s->slope, (size_t)d->session->n * sizeof *slope);
+    if (*h == 0) return VES_OK;
+    memcpy(s->trial, s->base, (size_t)d->session->n * sizeof(double));
+    s->trial[i] = u;
+    VES_TRY(ves_descent_look(d, s->trial, true));
+    if (d->last.status == VES_OK)
+        lagrangian_slope(s, d, slope);
+    else
+        *h = 0;
+    return VES_OK;
+}
+
+/* Returns false when some row cannot be had. */
+static ves_status differences(ves_saddle *s, ves_descent *d, bool *ok)
+{
+    int nf = s->frees;
+    for (int k = 0; k < nf; k++) {
+        double up = step, down = -step;
+        VES_TRY(slope_at(s, d, s->free[k], &up, s->plus));
+        VES_TRY(slope_at(s, d, s->free[k], &down, s->minus));
+        *ok = up != down;
+        if (!*ok) return VES_OK;
+        for (int l = 0; l < nf; l++)
+            s->hessian[k * nf + l] = (s->plus[s->free[l]] - s->minus[s->free[l]]) / (up - down);
+    }
+    return VES_OK;
+}
+
+/* Symmetrises; returns the largest asymmetry, which measures the noise. */
+static double symmetrise(int n, double *h)
+{
+    double noise = 0;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < i; j++) {
+            noise = fmax(noise, fabs(h[i * n + j] - h[j * n + i]));
+            h[i * n + j] = h[j * n + i] = 0.5 * (h[i * n + j] + h[j * n + i]);
+        }
+    return noise;
+}
+
+/* H <- P H P, P = 1 - sum_k q_k q_k'. */
+static void project(ves_saddle *s)
+{
+    int nf = s->frees;
+    for (int k = 0; k < s->active; k++) {
+        const double *q = s->basis + k * nf;
+        for (int i = 0; i < nf; i++) {
+            double *row = s->hessian + i * nf, along = dot(nf, row, q);
+            for (int j = 0; j < nf; j++) row[j] -= along * q[j];
+        }
+        for (int j = 0; j < nf; j++) {
+            double along = 0;
+            for (int i = 0; i < nf; i++) along += q[i] * s->hessian[i * nf + j];
+            for (int i = 0; i < nf; i++) s->hessian[i * nf + j] -= along * q[i];
+        }
+    }
+    symmetrise(nf, s->hessian);
+}
+
+static bool judge(ves_saddle *s, int n, double noise)
+{
+    int nf = s->frees, low = 0;
+    s->largest = 0;
+    for (int k = 0; k < nf; k++) {
+        s->largest = fmax(s->largest, fabs(s->value[k]));
+        if (s->value[k] < s->value[low]) low = k;
+    }
+    s->lowest = s->value[low];
+    memset(s->direction, 0, (size_t)n * sizeof(double));
+    for (int i = 0; i < nf; i++) s->direction[s->free[i]] = s->vector[i * nf + low];
+    s->mostly = 0;
+    for (int i = 1; i < n; i++)
+        if (fabs(s->direction[i]) > fabs(s->direction[s->mostly])) s->mostly = i;
+    /* one sign for every machine and order of rotations */
+    if (s->direction[s->mostly] < 0)
+        for (int i = 0; i < n; i++) s->direction[i] = -s->direction[i];
+    return s->lowest < -fmax(clear * s->largest, 10 * noise);
+}
+
+ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *point, bool *negative)
+{
+    int n = d->session->n;
+    *negative = false;
+    memcpy(s->base, point->u, (size_t)n * sizeof(double));
+    VES_TRY(ves_descent_look(d, s->base, true));
+    if (d->last.status != VES_OK) return VES_OK;
+    for (int pass = 0; pass < 2; pass++) {
+        release(s, d, pass);
+        multipliers(s, d);
+        lagrangian_slope(s, d, s->slope);
+    }
+    s->lagrangian = lagrangian(s, d);
+    if (!s->frees) return VES_OK;
+    bool ok = true;
+    VES_TRY(differences(s, d, &ok));
+    if (!ok) return VES_OK;
+    double noise = symmetrise(s->frees, s->hessian);
+    project(s);
+    ves_eigen_symmetric(s->frees, s->hessian, s->value, s->vector);
+    *negative = judge(s, n, noise);
+    return VES_OK;
+}
+
+/* The lowest of some steps, if it goes down at least a tenth of what the curvature promises: L + lowest t^2
+ * / 2. */
+static ves_status walk(ves_saddle *s, ves_descent *d, double sign, ves_point *side, bool *found)
+{
+    static const double length[] = {0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3};
+    double best = HUGE_VAL;
+    for (int k = 0; k < 6; k++) {
+        for (int i = 0; i < d->session->n; i++) {
+            double u = s->base[i] + sign * length[k] * s->direction[i];
+            s->trial[i] = u < 0 ? 0 : u > 1 ? 1 : u;
+        }
+        VES_TRY(ves_descent_look(d, s->trial, false));
+        if (d->last.status != VES_OK) continue;
+        double fall = s->lagrangian - lagrangian(s, d), promised = -0.5 * s->lowest * length[k] * length[k];
+        if (fall < 0.1 * promised || -fall >= best) continue;
+        best = -fall;
+        ves_descent_keep(d, side);
+        *found = true;
+    }
+    return VES_OK;
+}
+
+ves_status ves_saddle_leave(ves_saddle *s, ves_descent *d, ves_point *const side[2], bool found[2])
+{
+    found[0] = found[1] = false;
+    VES_TRY(walk(s, d, 1, side[0], &found[0]));
+    return walk(s, d, -1, side[1], &found[1]);
+}

@@ -1,0 +1,38 @@
+/* Second-order check at the end of a descent with gradients: is it a minimum or a saddle, and which way down.
+ */
+#ifndef VES_SEARCH_SADDLE_H
+#define VES_SEARCH_SADDLE_H
+
+#include "search/descent.h"
+
+enum { VES_SADDLE_MOST = 64 }; /* variables */
+
+typedef struct ves_saddle {
+    int active;         /* rows of constraints that hold as equations */
+    int *row;           /* [m] their constraints */
+    double *multiplier; /* [m]; 0 where not active */
+    int frees;
+    int *free;                    /* [n] variables that no wall holds */
+    double *base;                 /* [n] the point, in the unit box */
+    double *slope, *plus, *minus; /* [n] of the Lagrangian, scaled to the unit box */
+    double *basis;                /* [n][n] orthonormal rows that span the active constraints' gradients */
+    double *factor;               /* [n][n] their triangular factor */
+    double *hessian, *vector, *value; /* [n][n], [n][n], [n] */
+    double *direction;                /* [n] of lowest curvature, in the unit box */
+    double *trial;                    /* [n] */
+    double lagrangian;                /* at base */
+    double lowest, largest;           /* curvatures: f per box width squared */
+    int mostly;                       /* the variable that leads in direction */
+} ves_saddle;
+
+bool ves_saddle_create(ves_saddle *saddle, ves_session *session);
+
+/* negative: there is a direction of negative curvature at the point, clear of the noise of the differences.
+ */
+ves_status ves_saddle_check(ves_saddle *saddle, ves_descent *descent, const ves_point *point, bool *negative);
+
+/* Steps both ways along it; [0] and [1] are lower than the saddle when found[k]. */
+ves_status ves_saddle_leave(ves_saddle *saddle, ves_descent *descent, ves_point *const side[2],
+                            bool found[2]);
+
+#endif

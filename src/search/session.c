@@ -1,0 +1,184 @@
+#include "search/session.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { SENTENCE = 512 };
+
+ves_status ves_session_init(ves_session *session, const ves_search_problem *problem,
+                            const ves_search_options *options, const ves_search_hooks *hooks)
+{
+    *session = (ves_session){.problem = problem, .n = problem->n, .m = problem->m, .seed = options->seed};
+    if (hooks) session->hooks = *hooks;
+    session->tolerance = problem->tolerance > 0 ? problem->tolerance : VES_FEASIBLE;
+    session->tight = 1e-4 * session->tolerance;
+    session->seen = (ves_verdict){.status = VES_NO_NUMBER, .value = HUGE_VAL, .violation = HUGE_VAL};
+    session->temperature = session->acceptance = NAN;
+    session->stop = "nothing was asked";
+    session->stage_name = "start";
+    atomic_init(&session->stopped, false);
+    ves_search_complete(session, options);
+    session->pool = ves_pool_create(problem->workers);
+    bool ok = session->pool && ves_point_create(&session->arena, session->n, session->m, &session->start) &&
+              ves_point_create(&session->arena, session->n, session->m, &session->best);
+    return ok ? VES_OK : VES_MEMORY;
+}
+
+void ves_session_destroy(ves_session *session)
+{
+    ves_pool_destroy(session->pool);
+    ves_memory_free(session->temperature_log);
+    ves_arena_destroy(&session->arena);
+    ves_arena_destroy(&session->kept);
+}
+
+bool ves_session_over(ves_session *session)
+{
+    if (session->fault) return true;
+    if (atomic_load(&session->stopped)) return true;
+    if (!session->hooks.stopped || !session->hooks.stopped(session->hooks.data)) return false;
+    atomic_store(&session->stopped, true);
+    return true;
+}
+
+long ves_session_left(const ves_session *session)
+{
+    return session->evaluations < session->budget ? session->budget - session->evaluations : 0;
+}
+
+bool ves_session_better(const ves_session *session, const ves_verdict *a, const ves_verdict *b)
+{
+    bool both = a->status == VES_OK && b->status == VES_OK && a->violation <= session->tolerance &&
+                b->violation <= session->tolerance;
+    if (!both) return ves_verdict_better(a, b, session->tolerance);
+    return ves_verdict_energy(a, session->price, session->tight) <
+           ves_verdict_energy(b, session->price, session->tight);
+}
+
+/* By insertion: stable, and there are few ends. */
+void ves_session_sort(const ves_session *session, ves_end *end, int count)
+{
+    for (int i = 1; i < count; i++) {
+        ves_end moved = end[i];
+        int j = i;
+        for (; j && ves_session_better(session, &moved.point.verdict, &end[j - 1].point.verdict); j--)
+            end[j] = end[j - 1];
+        end[j] = moved;
+    }
+}
+
+static const char *sentence(ves_session *session, const char *format, va_list list)
+{
+    char text[SENTENCE];
+    vsnprintf(text, sizeof text, format, list);
+    return ves_arena_text(&session->kept, text, strlen(text));
+}
+
+void ves_session_note(ves_session *session, const char *format, ...)
+{
+    if (session->notes == VES_NOTES) return;
+    va_list list;
+    va_start(list, format);
+    const char *text = sentence(session, format, list);
+    va_end(list);
+    if (text)
+        session->note[session->notes++] = text;
+    else
+        session->fault = VES_MEMORY;
+}
+
+void ves_session_stop(ves_session *session, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    const char *text = sentence(session, format, list);
+    va_end(list);
+    if (text)
+        session->stop = text;
+    else
+        session->fault = VES_MEMORY;
+}
+
+void ves_session_progress(ves_session *session)
+{
+    if (!session->hooks.progress) return;
+    ves_progress progress = {.stage = session->stage_index,
+                             .stage_name = session->stage_name,
+                             .evaluations = session->told,
+                             .budget = session->budget,
+                             .temperature = session->temperature,
+                             .acceptance = session->acceptance,
+                             .any = session->seen.status == VES_OK,
+                             .value = session->seen.value,
+                             .violation = session->seen.violation};
+    session->hooks.progress(session->hooks.data, &progress);
+}
+
+/* Asks for the dear checks, in the caller's thread. Refusals are noted once for each reason. */
+ves_status ves_session_prove(ves_session *session, ves_point *point, bool *good)
+{
+    *good = point->proved;
+    if (point->proved) return VES_OK;
+    ves_asker asker;
+    ves_asker_init(&asker, session, -1);
+    double *constraint = ves_arena_take(&session->arena, (size_t)session->m, sizeof(double));
+    if (!constraint) return VES_MEMORY;
+    ves_verdict verdict = {.constraint = constraint};
+    ves_ask ask = {.x = point->x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
+    bool stopped =
+        atomic_exchange(&session->stopped, false); /* an interrupted search still proves its best */
+    ves_search_hooks hooks = session->hooks;
+    session->hooks.stopped = NULL;
+    ves_status status = ves_asker_judge(&asker, &ask, &verdict);
+    session->hooks.stopped = hooks.stopped;
+    atomic_store(&session->stopped, stopped);
+    *good = point->proved = status == VES_OK && verdict.status == VES_OK;
+    if (status == VES_OK) ves_asker_record(&asker, point->x, &verdict, false, NAN, *good);
+    asker.failed = 0; /* refused, not failed */
+    ves_asker_flush(&asker);
+    ves_asker_destroy(&asker);
+    if (status != VES_OK || *good) return status;
+    session->refused++;
+    int kind = (int)verdict.status;
+    bool known = kind > 0 && kind < VES_STATUS_KINDS && session->refusal[kind];
+    if (kind > 0 && kind < VES_STATUS_KINDS) session->refusal[kind] = true;
+    if (!known)
+        ves_session_note(session, "a best was refused by its proof: %s", ves_status_text(verdict.status));
+    return VES_OK;
+}
+
+static int best_of(const ves_session *session, ves_point *const *point, int count, const bool *done)
+{
+    int best = -1;
+    for (int k = 0; k < count; k++)
+        if (!done[k] && (best < 0 || ves_session_better(session, &point[k]->verdict, &point[best]->verdict)))
+            best = k;
+    return best;
+}
+
+/* Best first, so that all but one of the proofs are saved when the first passes. */
+ves_status ves_session_offer(ves_session *session, ves_point *const *point, int count, bool *refused)
+{
+    for (int k = 0; k < count; k++) refused[k] = false;
+    for (int k; (k = best_of(session, point, count, refused)) >= 0;) {
+        if (!ves_session_better(session, &point[k]->verdict, &session->best.verdict)) break;
+        bool good;
+        VES_TRY(ves_session_prove(session, point[k], &good));
+        if (good) {
+            ves_point_copy(&session->best, point[k], session->n, session->m);
+            break;
+        }
+        refused[k] = true;
+    }
+    return VES_OK;
+}
+
+ves_end *ves_session_ends(ves_session *session, int room)
+{
+    ves_end *end = ves_arena_take(&session->arena, (size_t)room, sizeof *end);
+    for (int k = 0; end && k < room; k++)
+        if (!ves_point_create(&session->arena, session->n, session->m, &end[k].point)) return NULL;
+    return end;
+}

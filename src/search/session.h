@@ -1,0 +1,141 @@
+/* Session: what all stages of one search share. Members of the population (chains, polishes) ask through an
+ * asker each; what they tell is kept in a journal and merged in the members' order, so that nothing depends
+ * on the number of threads. */
+#ifndef VES_SEARCH_SESSION_H
+#define VES_SEARCH_SESSION_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+
+#include "base/arena.h"
+#include "base/pool.h"
+#include "base/random.h"
+#include "search/point.h"
+#include "vesica/search.h"
+
+enum { VES_NOTES = 64, VES_STATUS_KINDS = 64 };
+
+typedef struct ves_session ves_session;
+
+/* An end of a stage: where a chain or a polish stopped. The next stage starts from the ends of the one
+ * before. */
+typedef struct ves_end {
+    ves_point point;
+    bool saddle;
+} ves_end;
+
+typedef struct ves_event {
+    double value, violation, temperature;
+    ves_status status;
+    bool accepted, gradient;
+} ves_event;
+
+typedef struct ves_journal {
+    ves_event *event;
+    double *x; /* [room][n], only for a record hook */
+    long count, room;
+} ves_journal;
+
+/* One member's line to the evaluator. */
+typedef struct ves_asker {
+    ves_session *session;
+    int member, worker;
+    long evaluations, gradients, failed; /* not yet merged */
+    ves_status fault;                    /* negative: the search must end */
+    ves_journal journal;
+} ves_asker;
+
+struct ves_session {
+    const ves_search_problem *problem;
+    ves_search_hooks hooks;
+    int n, m;
+    double tolerance; /* feasible */
+    double tight;     /* violations below this are rounding */
+    uint64_t seed;
+    ves_arena arena; /* scratch of the search */
+    ves_arena kept;  /* what the result points to */
+    ves_pool *pool;
+    atomic_bool stopped;
+    ves_status fault;
+
+    int stages, stage_index;
+    ves_stage stage[VES_STAGES];
+    bool grows[VES_STAGES]; /* the stage has no budget of its own */
+    const char *stage_name;
+    long budget; /* of the whole search */
+    double temperature, acceptance;
+
+    long evaluations, gradients, failed, refused;
+    long told;        /* events handed to the hooks */
+    ves_verdict seen; /* best told so far */
+    double price;     /* objective per unit of violation: what a violation within the tolerance may not buy */
+    double spread;    /* of the objective, from the warm-up; 0: unknown */
+    bool refusal[VES_STATUS_KINDS];
+
+    ves_point start, best; /* best: the proved one; failed while there is none */
+    int ends;
+    ves_end *end; /* best first */
+
+    int notes;
+    const char *note[VES_NOTES];
+    const char *stop;
+    int temperatures, temperature_room;
+    ves_temperature *temperature_log;
+};
+
+ves_status ves_session_init(ves_session *session, const ves_search_problem *problem,
+                            const ves_search_options *options, const ves_search_hooks *hooks);
+void ves_session_destroy(ves_session *session);
+
+/* True once the search must end: fault, interrupt. */
+bool ves_session_over(ves_session *session);
+long ves_session_left(const ves_session *session); /* evaluations */
+
+/* The order of all searches, with a price on violations that are within the tolerance but more than rounding:
+ * else the best would always be the one that uses the tolerance up. */
+bool ves_session_better(const ves_session *session, const ves_verdict *a, const ves_verdict *b);
+void ves_session_sort(const ves_session *session, ves_end *end, int count);
+
+/* Adds a sentence (printf format); too many: dropped. Out of memory is a fault of the session. */
+void ves_session_note(ves_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ves_session_stop(ves_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ves_session_progress(ves_session *session);
+
+/* Offers members' bests to the population: the best of them that is better than the population's and passes
+ * the proof becomes the population's best. refused[k] tells which did not pass. */
+ves_status ves_session_offer(ves_session *session, ves_point *const *point, int count, bool *refused);
+ves_status ves_session_prove(ves_session *session, ves_point *point, bool *good);
+
+/* Takes `room` ends for the next stage; NULL when out of memory. */
+ves_end *ves_session_ends(ves_session *session, int room);
+
+void ves_asker_init(ves_asker *asker, ves_session *session, int member);
+
+/* Asks for one verdict. The arrays are the caller's. Not a number is VES_NO_NUMBER. Returns VES_OK for any
+ * candidate; VES_INTERRUPTED (nothing asked) or the evaluator's fault else. */
+ves_status ves_asker_judge(ves_asker *asker, const ves_ask *ask, ves_verdict *verdict);
+
+/* For the trace: what has just been judged. */
+void ves_asker_record(ves_asker *asker, const double *x, const ves_verdict *verdict, bool gradient,
+                      double temperature, bool accepted);
+
+/* Hands the journal to the hooks and the counts to the session. Called in the order of the members, by the
+ * caller's thread. */
+void ves_asker_flush(ves_asker *asker);
+void ves_asker_destroy(ves_asker *asker);
+
+/* The stages. */
+ves_status ves_search_begin(ves_session *session); /* measures the start, or finds one that can be measured */
+ves_status ves_anneal_run(ves_session *session, const ves_anneal *options, long budget);
+ves_status ves_polish_run(ves_session *session, const ves_polish *options, long budget);
+
+/* Distinct ends, and the result. */
+ves_status ves_search_finish(ves_session *session, ves_search_result **result);
+
+/* options.c: checked and completed options; budgets. */
+ves_status ves_search_check(const ves_search_problem *problem, const ves_search_options *options);
+void ves_search_complete(ves_session *session, const ves_search_options *options);
+long ves_search_share(const ves_session *session, int stage); /* budget of a stage that is about to begin */
+const char *ves_search_algorithm(const ves_search_problem *problem, const ves_polish *polish);
+
+#endif

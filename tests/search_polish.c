@@ -1,0 +1,386 @@
+/* The polish: NLopt on scaled quantities, saddles, distinct optima. */
+#include <criterion/criterion.h>
+#include <criterion/new/assert.h>
+#include <stdio.h>
+
+#include "base/random.h"
+#include "search/eigen.h"
+#include "search_problems.h"
+
+#pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
+
+static const char *const algorithm[] = {"slsqp", "mma", "ccsa", "cobyla", "bobyqa", "sbplx", "auglag"};
+
+enum { ALGORITHMS = sizeof algorithm / sizeof algorithm[0] };
+
+static const ves_algorithm *described(const char *name)
+{
+    const ves_algorithm *a = ves_search_algorithms();
+    while (a->name && strcmp(a->name, name)) a++;
+    return a->name ? a : NULL;
+}
+
+Test(polish, every_algorithm_is_described_once)
+{
+    int count = 0;
+    for (const ves_algorithm *a = ves_search_algorithms(); a->name; a++, count++)
+        cr_assert(a->about && *a->about);
+    cr_assert(eq(int, count, ALGORITHMS));
+    for (int k = 0; k < ALGORITHMS; k++) cr_assert(described(algorithm[k]) != NULL, "no %s", algorithm[k]);
+}
+
+/* 1e-8 relative. Where an algorithm has values only and constraints go into an augmented Lagrangian, it finds
+ * x to the root of rounding, 1e-8 of the box, and multipliers make 1e-7 of the value of that. */
+static void reaches(const given *problem, double want, const char *what)
+{
+    for (int gradients = 0; gradients < 2; gradients++)
+        for (int k = 0; k < ALGORITHMS; k++) {
+            given g = *problem;
+            g.gradients = gradients;
+            if (!g.m) g.data = &g;
+            ves_search_options o = only_polish(algorithm[k]);
+            o.stage[0].polish.evaluations = 100000; /* enough for first-order methods in a curved valley */
+            ves_search_result *r;
+            cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+            bool blunt = g.m && (!strcmp(algorithm[k], "bobyqa") || !strcmp(algorithm[k], "sbplx") ||
+                                 !strcmp(algorithm[k], "auglag"));
+            double limit = blunt ? 2e-7 : 1e-8, error = fabs(r->value - want) / fmax(1, fabs(want));
+            cr_expect(r->feasible && error <= limit, "%s by %s, gradients %d: got %.12g, want %.12g (%s)",
+                      what, algorithm[k], gradients, r->value, want, r->stop);
+            cr_expect(r->violation <= 1e-8, "%s by %s: violation %g", what, algorithm[k], r->violation);
+            cr_expect(gradients || !r->gradients, "%s asked for gradients that are not there", algorithm[k]);
+            ves_search_result_destroy(r);
+        }
+}
+
+Test(polish, all_algorithms_solve_g06)
+{
+    reaches(&problem_g06, -6961.81387558015, "g06");
+}
+
+Test(polish, all_algorithms_meet_an_equality)
+{
+    reaches(&problem_can, -PI / sqrt(2), "can");
+}
+
+Test(polish, all_algorithms_find_the_rim_of_a_disk)
+{
+    reaches(&problem_disk, disk_least(), "disk");
+}
+
+Test(polish, all_algorithms_follow_a_valley)
+{
+    given g = problem_rosenbrock(2);
+    reaches(&g, 0, "Rosenbrock");
+}
+
+Test(polish, default_algorithm_follows_from_the_problem)
+{
+    const struct {
+        given problem;
+        bool gradients;
+        const char *want;
+    } table[] = {{problem_can, true, "slsqp"},
+                 {problem_can, false, "cobyla"},
+                 {problem_rosenbrock(3), false, "bobyqa"},
+                 {problem_rosenbrock(3), true, "slsqp"}};
+    for (int k = 0; k < 4; k++) {
+        given g = table[k].problem;
+        g.gradients = table[k].gradients;
+        g.data = &g;
+        ves_search_options o = only_polish(NULL);
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(strncmp(r->stop, table[k].want, strlen(table[k].want)) == 0, "case %d: %s", k, r->stop);
+        ves_search_result_destroy(r);
+    }
+}
+
+/* f scaled by 1e-9 and by 1e9, and boxes of 1e-6 and 1e6: SLSQP on unscaled quantities fails on half of
+ * these. */
+typedef struct scaled {
+    double f, x;
+} scaled;
+
+static ves_status scaled_rosenbrock(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    const scaled *s = data;
+    static const given two = {.n = 2};
+    double x[2] = {ask->x[0] / s->x, ask->x[1] / s->x};
+    ves_ask inner = *ask;
+    inner.x = x;
+    rosenbrock((void *)&two, worker, &inner, v);
+    v->value = s->f * (v->value + 1);
+    for (int i = 0; i < 2 && (ask->want & VES_WANT_GRADIENT); i++) v->gradient[i] *= s->f / s->x;
+    return VES_OK;
+}
+
+Test(polish, scale_of_value_and_box_does_not_matter)
+{
+    const double f[] = {1e-9, 1, 1e9}, x[] = {1e-6, 1, 1e6};
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) {
+            scaled s = {f[a], x[b]};
+            given g = problem_rosenbrock(2);
+            g.evaluate = scaled_rosenbrock;
+            g.data = &s;
+            g.gradients = true;
+            for (int i = 0; i < 2; i++) g.lower[i] *= s.x, g.upper[i] *= s.x, g.start[i] *= s.x;
+            ves_search_options o = only_polish("slsqp");
+            ves_search_result *r;
+            cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+            double error = r->value / s.f - 1; /* f_tolerance 1e-12 and restarts: 1e-10 */
+            cr_expect(fabs(error) < 1e-10, "f * %g, x * %g: error %g after %ld", s.f, s.x, error,
+                      r->evaluations);
+            ves_search_result_destroy(r);
+        }
+}
+
+/* x0 + x1 matters only as a sum, x3 not at all, and curvatures differ by 1e6: the value still converges to
+ * 1e-10. */
+static ves_status valley(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    const double *x = ask->x;
+    double t = x[0] + x[1] - 0.3, s = x[2] - 0.41, *g = gradient_of(ask, v);
+    v->value = 2 + t * t + t * t * t * t + 1e-6 * s * s;
+    if (!g) return VES_OK;
+    g[0] = g[1] = 2 * t + 4 * t * t * t;
+    g[2] = 2e-6 * s;
+    g[3] = 0;
+    return VES_OK;
+}
+
+static const given problem_valley = {.evaluate = valley,
+                                     .n = 4,
+                                     .lower = {-1, -1, -1, -1},
+                                     .upper = {1, 1, 1, 1},
+                                     .start = {-0.7, 0.2, 0.9, 0.11},
+                                     .gradients = true};
+
+Test(polish, flat_directions_are_no_saddles_and_no_other_optima)
+{
+    ves_search_options o = ves_search_options_default();
+    for (uint64_t seed = 1; seed <= 5; seed++) {
+        o.seed = seed;
+        ves_search_result *r;
+        cr_assert(eq(int, run(&problem_valley, &o, NULL, &r), VES_OK));
+        cr_expect(fabs(r->value - 2) < 2e-10, "seed %d: %.13g", (int)seed, r->value);
+        cr_expect(eq(int, r->optima, 1));
+        cr_expect(r->optimum[0].hits == 16, "%d hits: one for each chain of auto", r->optimum[0].hits);
+        for (int k = 0; k < r->notes; k++)
+            cr_expect(strstr(r->note[k], "negative curvature") == NULL, "%s", r->note[k]);
+        ves_search_result_destroy(r);
+    }
+}
+
+/* f = x^4/4 - x^2/2 + y^2: a saddle at 0, minima at (+-1, 0) with -1/4 */
+static ves_status saddle(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    v->value = x * x * x * x / 4 - x * x / 2 + y * y;
+    if (!g) return VES_OK;
+    g[0] = x * x * x - x;
+    g[1] = 2 * y;
+    return VES_OK;
+}
+
+static bool noted(const ves_search_result *r, const char *word)
+{
+    for (int k = 0; k < r->notes; k++)
+        if (strstr(r->note[k], word)) return true;
+    return false;
+}
+
+Test(polish, a_saddle_is_left_both_ways)
+{
+    given g = {
+        .evaluate = saddle, .n = 2, .lower = {-2, -3}, .upper = {2, 2}, .start = {0, 1}, .gradients = true};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(fabs(r->value + 0.25) < 1e-12, "value %.15g", r->value);
+    cr_expect(eq(int, r->optima, 2));
+    cr_expect(r->optimum[0].x[0] * r->optimum[1].x[0] < -0.99, "%g and %g", r->optimum[0].x[0],
+              r->optimum[1].x[0]);
+    cr_expect(noted(r, "negative curvature") && noted(r, "x[0]"));
+    cr_expect(r->optimum[0].saddle == false && r->optimum[1].saddle == false);
+    ves_search_result_destroy(r);
+
+    o.stage[0].polish.escape = false; /* then it stays, and does not know */
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(fabs(r->value) < 1e-12 && r->optima == 1 && r->notes == 0);
+    ves_search_result_destroy(r);
+}
+
+/* f = -x^2 on the circle x^2 + y^2 = 1 from its top: the curvature is the Lagrangian's, 2 (lambda - 1) = -2
+ * along the circle. */
+static ves_status circle(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    v->value = -x * x;
+    v->constraint[0] = x * x + y * y - 1;
+    if (!g) return VES_OK;
+    g[0] = -2 * x;
+    g[1] = 0;
+    v->jacobian[0] = 2 * x;
+    v->jacobian[1] = 2 * y;
+    return VES_OK;
+}
+
+/* f = (x - 1)^2 + (y - 1)^2 with x y <= 1/16: from the diagonal SQP ends at (1/4, 1/4), the best of the
+ * diagonal. Along the hyperbola f goes down to both sides: there L = f + 6 c has curvature 2 - 6. */
+static ves_status hyperbola(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    v->value = (x - 1) * (x - 1) + (y - 1) * (y - 1);
+    v->constraint[0] = x * y - 0.0625;
+    if (!g) return VES_OK;
+    g[0] = 2 * (x - 1);
+    g[1] = 2 * (y - 1);
+    v->jacobian[0] = y;
+    v->jacobian[1] = x;
+    return VES_OK;
+}
+
+Test(polish, a_saddle_on_a_constraint_is_left)
+{
+    given top = {.evaluate = circle,
+                 .n = 2,
+                 .m = 1,
+                 .lower = {-2, -2},
+                 .upper = {2, 2},
+                 .start = {0, 1},
+                 .equality = {true},
+                 .gradients = true};
+    given diagonal = {.evaluate = hyperbola,
+                      .n = 2,
+                      .m = 1,
+                      .lower = {-3, -3},
+                      .upper = {3, 3},
+                      .start = {0.1, 0.1},
+                      .gradients = true};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, run(&top, &o, NULL, &r), VES_OK));
+    cr_expect(fabs(r->value + 1) < 1e-9 && r->violation < 1e-9, "value %.12g, violation %g", r->value,
+              r->violation);
+    cr_expect(r->optima == 2 && noted(r, "negative curvature"), "%d optima", r->optima);
+    ves_search_result_destroy(r);
+    cr_assert(eq(int, run(&diagonal, &o, NULL, &r), VES_OK));
+    /* the oracle: along x y = 1/16 the value is s^2 - 2 s + 2 - 1/8, s = x + y >= 1/2, least at s = 1: 7/8 */
+    cr_expect(fabs(r->value - 0.875) < 1e-9, "value %.12g at %g %g", r->value, r->x[0], r->x[1]);
+    cr_expect(r->optima == 2, "%d optima", r->optima);
+    ves_search_result_destroy(r);
+}
+
+/* A minimum on a wall, where f has negative curvature across the wall, is a minimum all the same. */
+static ves_status slope_down(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    v->value = -x * x + (y - 0.3) * (y - 0.3);
+    if (!g) return VES_OK;
+    g[0] = -2 * x;
+    g[1] = 2 * (y - 0.3);
+    return VES_OK;
+}
+
+Test(polish, a_minimum_on_a_wall_is_no_saddle)
+{
+    given g = {.evaluate = slope_down,
+               .n = 2,
+               .lower = {0.2, -1},
+               .upper = {1.7, 1},
+               .start = {0.5, 0.9},
+               .gradients = true};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(fabs(r->value + 1.7 * 1.7) < 1e-10, "value %.12g", r->value);
+    cr_expect(eq(int, r->notes, 0));
+    ves_search_result_destroy(r);
+}
+
+/* Candidates that fail, by status, by a value or by a slope that is no number, do not stop any algorithm
+ * short of the optimum. */
+static ves_status islands(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    double r2 = x * x + y * y;
+    v->value = r2;
+    if (g) g[0] = 2 * x, g[1] = 2 * y;
+    if (x > 1.2) return VES_FOLDED;
+    if (y < -0.4) v->value = NAN;
+    if (x < -1.4 && g) g[0] = NAN;
+    return VES_OK;
+}
+
+Test(polish, failed_candidates_do_not_end_a_descent)
+{
+    for (int k = 0; k < ALGORITHMS; k++) {
+        given g = {.evaluate = islands,
+                   .n = 2,
+                   .lower = {-3, -2.5},
+                   .upper = {2.5, 3},
+                   .start = {1.15, 1.9},
+                   .gradients = true};
+        ves_search_options o = only_polish(algorithm[k]);
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(r->value < 1e-10 && isfinite(r->value), "%s: value %g, %ld failed (%s)", algorithm[k],
+                  r->value, r->failed, r->stop);
+        ves_search_result_destroy(r);
+    }
+}
+
+Test(polish, budget_is_kept_to)
+{
+    const long budget[] = {1, 2, 5, 17, 100, 1000};
+    for (int k = 0; k < ALGORITHMS; k++)
+        for (int b = 0; b < 6; b++) {
+            given g = problem_can;
+            ves_search_options o = only_polish(algorithm[k]);
+            o.evaluations = budget[b];
+            ves_search_result *r;
+            cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+            /* proofs of the start, the best and the optima come on top: at most 4 */
+            cr_expect(r->evaluations <= budget[b] + 4, "%s: %ld of %ld", algorithm[k], r->evaluations,
+                      budget[b]);
+            ves_search_result_destroy(r);
+        }
+}
+
+/* A V e = lambda e and V'V = 1, for random matrices and for equal eigenvalues */
+Test(polish, eigenvalues_of_small_matrices)
+{
+    enum { N = 12 };
+    double a[N * N], b[N * N], value[N], vector[N * N];
+    for (int size = 1; size <= N; size++)
+        for (int kind = 0; kind < 3; kind++) {
+            ves_random random = {.seed = 7, .chain = (uint32_t)kind, .step = (uint64_t)size};
+            for (int i = 0; i < size; i++)
+                for (int j = 0; j <= i; j++) {
+                    double x = kind == 0 ? ves_random_normal(&random) : kind == 1 ? 2.5 : i == j;
+                    a[i * size + j] = a[j * size + i] = x;
+                }
+            memcpy(b, a, sizeof a);
+            ves_eigen_symmetric(size, b, value, vector);
+            double worst = 0;
+            for (int k = 0; k < size; k++)
+                for (int i = 0; i < size; i++) {
+                    double left = -value[k] * vector[i * size + k], product = k == i ? -1 : 0;
+                    for (int j = 0; j < size; j++) {
+                        left += a[i * size + j] * vector[j * size + k];
+                        product += vector[j * size + k] * vector[j * size + i];
+                    }
+                    worst = fmax(worst, fmax(fabs(left), fabs(product)));
+                }
+            cr_expect(worst < 1e-13 * size * 3, "size %d kind %d: residual %g", size, kind,
+                      worst); /* rounding */
+        }
+}

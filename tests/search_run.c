@@ -1,0 +1,434 @@
+/* What every search promises: the same bytes again, whatever the threads; faults, failures, interrupts,
+ * proofs, memory. */
+#include <criterion/criterion.h>
+#include <criterion/new/assert.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "search_problems.h"
+
+#pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
+
+/* ---- an allocator that counts, and fails on demand; not under a sanitizer, which brings its own ---- */
+
+#ifdef __SANITIZE_ADDRESS__
+#define COUNTING 0
+#else
+#define COUNTING 1
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *block, size_t size);
+void __libc_free(void *block);
+static long live, asked, fail_at;
+static bool counting;
+
+void *malloc(size_t size)
+{
+    void *block = __libc_malloc(size);
+    live += counting && block;
+    return block;
+}
+
+void *calloc(size_t count, size_t size)
+{
+    if (counting && ++asked == fail_at) return NULL;
+    void *block = __libc_calloc(count, size);
+    live += counting && block;
+    return block;
+}
+
+void *realloc(void *old, size_t size)
+{
+    if (counting && ++asked == fail_at) return NULL;
+    void *block = __libc_realloc(old, size);
+    live += counting && block && !old;
+    return block;
+}
+
+void free(void *block)
+{
+    live -= counting && block;
+    __libc_free(block);
+}
+#endif
+
+/* ---- the same bytes ---- */
+
+typedef struct tape {
+    uint64_t hash;
+    long records, events;
+    int n;
+} tape;
+
+/* FNV-1a */
+static void mix(tape *t, const void *data, size_t size)
+{
+    for (size_t k = 0; k < size; k++) t->hash = (t->hash ^ ((const unsigned char *)data)[k]) * 1099511628211u;
+}
+
+static void mix_number(tape *t, double value)
+{
+    mix(t, &value, sizeof value);
+}
+
+static void on_record(void *data, const ves_record *r)
+{
+    tape *t = data;
+    t->records++;
+    cr_assert(r->evaluation == t->records);
+    mix(t, r->x, (size_t)t->n * sizeof *r->x);
+    mix_number(t, r->value), mix_number(t, r->violation), mix_number(t, r->temperature);
+    mix_number(t, r->stage), mix_number(t, r->chain), mix_number(t, r->status),
+        mix_number(t, r->accepted + 2 * r->gradient);
+}
+
+static void on_progress(void *data, const ves_progress *p)
+{
+    tape *t = data;
+    t->events++;
+    mix(t, p->stage_name, strlen(p->stage_name));
+    mix_number(t, p->stage), mix_number(t, (double)p->evaluations), mix_number(t, (double)p->budget);
+    mix_number(t, p->temperature), mix_number(t, p->acceptance), mix_number(t, p->any);
+    if (p->any) mix_number(t, p->value), mix_number(t, p->violation);
+}
+
+static void mix_result(tape *t, const ves_search_result *r)
+{
+    mix_number(t, r->value), mix_number(t, r->violation), mix_number(t, r->feasible);
+    mix(t, r->x, (size_t)r->n * sizeof *r->x);
+    mix(t, r->constraint, (size_t)r->m * sizeof *r->constraint);
+    mix_number(t, (double)r->evaluations), mix_number(t, (double)r->gradients),
+        mix_number(t, (double)r->failed);
+    mix_number(t, (double)r->refused);
+    mix(t, r->stop, strlen(r->stop));
+    for (int k = 0; k < r->notes; k++) mix(t, r->note[k], strlen(r->note[k]));
+    for (int k = 0; k < r->optima; k++) {
+        mix(t, r->optimum[k].x, (size_t)r->n * sizeof(double));
+        mix_number(t, r->optimum[k].value), mix_number(t, r->optimum[k].hits);
+    }
+    for (int k = 0; k < r->temperatures; k++) {
+        const ves_temperature *c = &r->temperature[k];
+        mix_number(t, c->c), mix_number(t, c->mean), mix_number(t, c->variance),
+            mix_number(t, (double)c->accepted);
+    }
+}
+
+/* Failing candidates, refusals of proofs, several minima: all that could disturb the order. */
+static ves_status rough(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    double x = ask->x[0], y = ask->x[1];
+    disk(data, worker, ask, v);
+    if (x < -1.5 && y > 1) return VES_DEGENERATE;
+    if ((ask->want & VES_WANT_PROOF) && x > 0.7 && y > 0.9) return VES_SELF_INTERSECTS;
+    v->value += 0.3 * sin(9 * x) * sin(8 * y);
+    if (!(ask->want & VES_WANT_GRADIENT)) return VES_OK;
+    v->gradient[0] += 2.7 * cos(9 * x) * sin(8 * y);
+    v->gradient[1] += 2.4 * sin(9 * x) * cos(8 * y);
+    return VES_OK;
+}
+
+static tape taped(given g, ves_search_options o, bool hooked)
+{
+    tape t = {.hash = 14695981039346656037u, .n = g.n};
+    ves_search_hooks hooks = {.record = on_record, .progress = on_progress, .data = &t};
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, hooked ? &hooks : NULL, &r), VES_OK));
+    if (hooked)
+        cr_assert(t.records == r->evaluations, "%ld records, %ld evaluations", t.records, r->evaluations);
+    tape end = {.hash = hooked ? t.hash : 14695981039346656037u, .records = t.records, .events = t.events};
+    mix_result(&end, r);
+    ves_search_result_destroy(r);
+    return end;
+}
+
+Test(search_run, same_seed_same_bytes_for_any_number_of_workers)
+{
+    for (int gradients = 0; gradients < 2; gradients++)
+        for (int hooked = 0; hooked < 2; hooked++) {
+            given g = problem_disk;
+            g.evaluate = rough;
+            g.gradients = gradients;
+            ves_search_options o = ves_search_options_default();
+            o.seed = 12345;
+            tape first = taped(g, o, hooked);
+            for (int workers = 1; workers <= 4; workers++) {
+                g.workers = workers;
+                tape again = taped(g, o, hooked);
+                cr_expect(again.hash == first.hash && again.events == first.events,
+                          "gradients %d, %d workers: other bytes", gradients, workers);
+            }
+            o.seed++;
+            cr_expect(taped(g, o, hooked).hash != first.hash, "another seed gives the same");
+        }
+}
+
+/* ---- faults and failures ---- */
+
+static ves_status never(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker, (void)ask, (void)v;
+    return VES_INVERTED;
+}
+
+Test(search_run, an_evaluator_that_always_fails_is_reported)
+{
+    given g = problem_can;
+    g.evaluate = never;
+    ves_search_options o = ves_search_options_default();
+    o.evaluations = 300;
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(r->any == false && r->feasible == false && r->optima == 0);
+    cr_expect(r->failed == r->evaluations && r->evaluations <= 300, "%ld of %ld", r->failed, r->evaluations);
+    cr_expect(r->notes == 1 && strstr(r->note[0], "inside out") != NULL, "%d notes", r->notes);
+    ves_search_result_destroy(r);
+}
+
+/* Measurable only in a corner of a hundredth of the box, away from the start. */
+static ves_status corner(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1];
+    if (x > -0.8 || y < 0.8) return VES_FOLDED;
+    v->value = (x + 0.9) * (x + 0.9) + (y - 0.93) * (y - 0.93);
+    return VES_OK;
+}
+
+Test(search_run, a_start_that_fails_is_replaced)
+{
+    given g = {.evaluate = corner, .n = 2, .lower = {-1, -1}, .upper = {1, 1}, .start = {0.4, -0.4}};
+    ves_search_options o = ves_search_options_default();
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(r->feasible && r->value < 1e-10, "value %g", r->value);
+    cr_expect(r->notes >= 1 && strstr(r->note[0], "the start cannot be measured") != NULL);
+    ves_search_result_destroy(r);
+}
+
+typedef struct fuse {
+    long calls, burns;
+} fuse;
+
+static ves_status burning(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    fuse *f = data;
+    if (++f->calls == f->burns) return VES_IO;
+    return disk(NULL, worker, ask, v);
+}
+
+Test(search_run, a_fault_of_the_evaluator_ends_the_search)
+{
+    const long at[] = {1, 2, 30, 500, 5000, 6100, 6300};
+    for (int k = 0; k < 7; k++) {
+        fuse f = {.burns = at[k]};
+        given g = problem_disk;
+        g.evaluate = burning;
+        g.data = &f;
+        ves_search_options o = ves_search_options_default();
+        ves_search_result *r = NULL;
+        cr_expect(run(&g, &o, NULL, &r) == VES_IO && r == NULL, "at %ld", at[k]);
+        cr_expect(f.calls == at[k], "asked %ld times, should have stopped at %ld", f.calls, at[k]);
+    }
+}
+
+static bool burnt(void *data)
+{
+    fuse *f = data;
+    return ++f->calls > f->burns;
+}
+
+Test(search_run, an_interrupt_leaves_the_best_so_far)
+{
+    const long at[] = {0, 1, 2, 10, 50, 300, 3000, 6050, 6200, 6500};
+    for (int k = 0; k < 10; k++)
+        for (int workers = 1; workers <= 2; workers++) {
+            fuse f = {.burns = at[k]};
+            given g = problem_disk;
+            g.workers = workers;
+            ves_search_hooks hooks = {.stopped = burnt, .data = &f};
+            ves_search_options o = ves_search_options_default();
+            ves_search_result *r = NULL;
+            ves_status status = run(&g, &o, &hooks, &r);
+            cr_assert(status == VES_INTERRUPTED && r && r->status == VES_INTERRUPTED, "at %ld: %d", at[k],
+                      status);
+            cr_expect(r->any == (at[k] > 0));
+            if (r->any) { /* not worse than the start, which is infeasible here or not */
+                double x = g.start[0], y = g.start[1], start = (x * x + y * y - 1.5) / 1.5;
+                cr_expect(r->violation <= fmax(start, 0) + 1e-6, "at %ld: violation %g", at[k], r->violation);
+            }
+            cr_expect(at[k] < 300 || r->feasible, "at %ld", at[k]);
+            cr_expect(r->evaluations <= at[k] + 5, "at %ld: %ld evaluations", at[k], r->evaluations);
+            ves_search_result_destroy(r);
+        }
+}
+
+Test(search_run, options_out_of_range_are_refused)
+{
+    given good = problem_can;
+    ves_search_options fine = ves_search_options_default();
+    ves_search_result *r;
+    for (int k = 0; k < 17; k++) {
+        given g = good;
+        ves_search_options o = only_anneal(100), p = only_polish("slsqp");
+        ves_anneal *a = &o.stage[0].anneal;
+        ves_polish *q = &p.stage[0].polish;
+        bool polish = false;
+        switch (k) {
+        case 0:
+            g.n = 0;
+            break;
+        case 1:
+            g.m = -1;
+            break;
+        case 2:
+            g.lower[0] = g.upper[0];
+            break;
+        case 3:
+            g.upper[1] = HUGE_VAL;
+            break;
+        case 4:
+            g.start[0] = NAN;
+            break;
+        case 5:
+            g.start[0] = 7;
+            break;
+        case 6:
+            a->s = 1;
+            break;
+        case 7:
+            a->s = -0.5;
+            break;
+        case 8:
+            a->c0 = -1;
+            break;
+        case 9:
+            a->chains = -1;
+            break;
+        case 10:
+            a->step = 2;
+            break;
+        case 11:
+            a->evaluations = -5;
+            break;
+        case 12:
+            o.stages = VES_STAGES + 1;
+            break;
+        case 13:
+            o.evaluations = -1;
+            break;
+        case 14:
+            q->algorithm = "newton", polish = true;
+            break;
+        case 15:
+            q->starts = -1, polish = true;
+            break;
+        case 16:
+            g.evaluate = NULL;
+            break;
+        }
+        r = (ves_search_result *)1;
+        cr_expect(run(&g, polish ? &p : &o, NULL, &r) == VES_RANGE && r == NULL, "case %d", k);
+    }
+    cr_assert(run(&good, &fine, NULL, &r) == VES_OK);
+    ves_search_result_destroy(r);
+    cr_assert(run(&good, NULL, NULL, &r) == VES_OK); /* NULL options: auto */
+    ves_search_result_destroy(r);
+    ves_search_result_destroy(NULL);
+}
+
+/* A violation that is left out is the largest of the constraints; budgets of the whole search are shared by
+ * the stages. */
+Test(search_run, budget_of_the_whole_search_is_shared)
+{
+    const long budget[] = {10, 60, 300, 2000, 20000};
+    for (int k = 0; k < 5; k++)
+        for (int gradients = 0; gradients < 2; gradients++) {
+            given g = problem_disk;
+            g.gradients = gradients;
+            ves_search_options o = ves_search_options_default();
+            o.evaluations = budget[k];
+            ves_search_result *r;
+            cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+            cr_expect(r->evaluations <= budget[k] + 12, "%ld of %ld", r->evaluations,
+                      budget[k]); /* proofs come on top */
+            /* COBYLA's linear models crawl along the valley */
+            double limit = budget[k] < 300 ? HUGE_VAL : gradients ? 1e-6 : 0.5;
+            cr_expect(r->value - disk_least() < limit, "budget %ld: %g (%s)", budget[k], r->value, r->stop);
+            ves_search_result_destroy(r);
+        }
+}
+
+/* ---- proofs ---- */
+
+/* Two wells, at -1 and at 1; the proof refuses what is right of a limit. The right one is lower. */
+static ves_status guarded(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    double x = ask->x[0], *g = gradient_of(ask, v);
+    (void)worker;
+    if ((ask->want & VES_WANT_PROOF) && ask->level != 1) return VES_FAULT;
+    if ((ask->want & VES_WANT_PROOF) && x > *(double *)data) return VES_SELF_INTERSECTS;
+    v->value = (x * x - 1) * (x * x - 1) - 0.2 * x;
+    if (g) g[0] = 4 * x * (x * x - 1) - 0.2;
+    return VES_OK;
+}
+
+Test(search_run, the_best_is_always_proved)
+{
+    for (int gradients = 0; gradients < 2; gradients++) {
+        double limit = 0;
+        given g = {.evaluate = guarded,
+                   .n = 1,
+                   .lower = {-2},
+                   .upper = {2},
+                   .start = {-1.7},
+                   .gradients = gradients,
+                   .data = &limit};
+        ves_search_options o = ves_search_options_default();
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(r->x[0] < 0 && r->feasible, "x %g", r->x[0]);
+        cr_expect(r->refused > 0 && r->notes >= 1 && strstr(r->note[0], "crosses itself") != NULL);
+        for (int k = 0; k < r->optima; k++)
+            cr_expect(r->optimum[k].x[0] <= 0, "optimum at %g", r->optimum[k].x[0]);
+        ves_search_result_destroy(r);
+
+        limit = -5; /* nothing passes */
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(r->any && r->feasible == false && strstr(r->note[r->notes - 1], "unproved") != NULL);
+        ves_search_result_destroy(r);
+    }
+}
+
+/* ---- memory ---- */
+
+#if COUNTING
+/* Every allocation of ours fails once; nothing is lost, and the answer is VES_MEMORY. A long run, so one
+ * process for all. */
+Test(search_run, failing_allocations_are_survived)
+{
+    for (int hooked = 0; hooked < 2; hooked++) {
+        given g = problem_disk;
+        g.gradients = true;
+        tape t = {.n = 2};
+        ves_search_hooks hooks = {.progress = on_progress, .data = &t};
+        ves_search_options o = ves_search_options_default();
+        o.evaluations = 400;
+        long last = 2;
+        for (long k = 0; k < last; k++) { /* 0: none fails, and they are counted */
+            ves_search_result *r = NULL;
+            live = asked = 0;
+            fail_at = k;
+            counting = true;
+            ves_status status = run(&g, &o, hooked ? &hooks : NULL, &r);
+            bool any = r != NULL;
+            ves_search_result_destroy(r);
+            counting = false;
+            if (k == 0) last = asked + 1;
+            cr_assert(live == 0, "allocation %ld of %ld: %ld blocks lost", k, last, live);
+            cr_assert(k ? status == VES_MEMORY && any == false : status == VES_OK && any,
+                      "allocation %ld of %ld: status %d", k, last, status);
+        }
+        cr_expect(last > 3, "%ld", last);
+    }
+}
+#endif
