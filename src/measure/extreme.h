@@ -1,0 +1,41 @@
+/* The farthest point of the surface along a direction d.
+ *
+ * In the cell of every node X is its Taylor polynomial of degree 2 about the node, and the result is the
+ * largest d . X of all cells: third order in the spacing, wherever the extreme lies, since it is off by no
+ * more than the remainder. Caps need no look: they lie within the hull of their curves. Derivative: the
+ * maximiser is stationary, or held by an edge of its cell, so du and dv count as constants (envelope
+ * theorem). */
+#ifndef VES_MEASURE_EXTREME_H
+#define VES_MEASURE_EXTREME_H
+
+#include "vesica/measure.h"
+
+enum {
+    VES_EXTREME_SURFACE = VES_X | VES_XU | VES_XV | VES_XUU | VES_XUV | VES_XVV,
+    VES_EXTREME_ROOM = 4 /* doubles that hold one */
+};
+
+typedef struct ves_extreme {
+    int sample, node;
+    double du, dv; /* from the node */
+    double value;  /* d . X */
+} ves_extreme;
+
+/* VES_NO_NUMBER: d . X is nowhere a number. */
+ves_status ves_extreme_find(const ves_measure_input *input, const double d[3], ves_extreme *extreme);
+
+void ves_extreme_point(const ves_measure_input *input, const ves_extreme *extreme, double point[3]);
+
+/* Adds to the planes, given d J / d point. */
+void ves_extreme_gradient(const ves_extreme *extreme, const double back[3],
+                          const ves_adjoint *const *adjoint);
+
+/* --- what extent, width, height and depth share --- */
+
+size_t ves_extent_room(const ves_measure_input *input);
+ves_status ves_extent_eval(const ves_measure_input *input, const double unit[3], double *value);
+/* unit_back: adds d J / d unit; or NULL. */
+void ves_extent_gradient(const ves_measure_input *input, const double unit[3], double seed,
+                         const ves_adjoint *const *adjoint, double *unit_back);
+
+#endif

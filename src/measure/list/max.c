@@ -1,0 +1,112 @@
+#include <math.h>
+
+#include "measure/argument.h"
+#include "measure/pointwise.h"
+#include "measure/power.h"
+
+enum { OF, SMOOTH };
+
+static const ves_key KEYS[] = {
+    {.name = "of",
+     .kind = VES_POINTWISE,
+     .required = true,
+     .about = "formula of x, y, z, H, K, k1, k2, u, v"},
+    {.name = "smooth",
+     .kind = VES_NUMBER,
+     .unit = "1",
+     .min = 0,
+     .max = HUGE_VAL,
+     .about =
+         "0: the largest over the nodes; p > 0: the mean of max(of, 0)^p over the area, to the power 1/p, "
+         "which is smooth for p >= 2"},
+    {.name = NULL}};
+
+/* room: the formula's scratch, then sample and node of the largest, then all values. */
+static size_t room(const ves_measure_input *input)
+{
+    return ves_pointwise_scratch(input) + 2 + ves_pointwise_nodes(input);
+}
+
+static double *place_of(const ves_measure_input *input)
+{
+    return input->room + ves_pointwise_scratch(input);
+}
+
+/* Power mean of the positive part, from the values in room. */
+static ves_power gather(const ves_measure_input *input, double p)
+{
+    const double *value = place_of(input) + 2;
+    ves_power power = {.p = p};
+    for (size_t k = 0; k < ves_pointwise_nodes(input); k++) power.largest = fmax(power.largest, value[k]);
+    for (int i = 0; i < input->samples; i++) {
+        const ves_samples *s = input->sample[i];
+        if (s->site != VES_SITE_SURFACE) continue;
+        for (int n = 0; n < s->count; n++) ves_power_add(&power, fmax(*value++, 0), s->dA[n]);
+    }
+    ves_power_close(&power);
+    return power;
+}
+
+/* The largest value of a formula over the nodes (of second order in their spacing), or its power mean
+ * ( integral max(f, 0)^p dA / A )^(1/p), which is less, and 0 where f is nowhere positive. VES_NO_NUMBER
+ * where the formula is no number. test  torus in closed form; power means on a cylinder; differences */
+static ves_status eval(const ves_measure_input *input, double *value)
+{
+    double p = ves_argument_number(input, SMOOTH), *place = place_of(input), *all = place + 2;
+    if (!(p > 0)) {
+        ves_pointwise_top top;
+        VES_TRY(ves_pointwise_largest(input, 1, &top));
+        place[0] = top.sample, place[1] = top.node;
+        *value = top.value;
+        return VES_OK;
+    }
+    for (int i = 0; i < input->samples; i++) {
+        const ves_samples *s = input->sample[i];
+        if (s->site != VES_SITE_SURFACE) continue;
+        for (int n = 0; n < s->count; n++) {
+            *all = ves_pointwise_eval(input, s, n);
+            if (!isfinite(*all++)) return VES_NO_NUMBER;
+        }
+    }
+    *value = gather(input, p).mean;
+    return VES_OK;
+}
+
+static void smooth_gradient(const ves_measure_input *input, double p, double seed,
+                            const ves_adjoint *const *adjoint, double *number_adjoint)
+{
+    ves_power power = gather(input, p);
+    const double *value = place_of(input) + 2;
+    for (int i = 0; i < input->samples; i++) {
+        const ves_samples *s = input->sample[i];
+        if (s->site != VES_SITE_SURFACE) continue;
+        for (int n = 0; n < s->count; n++) {
+            ves_power_slope g = ves_power_gradient(&power, *value++, s->dA[n]);
+            if (g.x > 0) ves_pointwise_gradient(input, s, n, seed * g.x, adjoint[i], number_adjoint);
+            if (adjoint[i]->dA) adjoint[i]->dA[n] += seed * g.w;
+        }
+    }
+    ves_argument_scatter(input, SMOOTH, 0, seed * ves_power_by_exponent(&power), number_adjoint);
+}
+
+static void gradient(const ves_measure_input *input, double seed, const ves_adjoint *const *adjoint,
+                     double *number_adjoint)
+{
+    double p = ves_argument_number(input, SMOOTH);
+    const double *place = place_of(input);
+    int i = (int)place[0];
+    if (p > 0)
+        smooth_gradient(input, p, seed, adjoint, number_adjoint);
+    else
+        ves_pointwise_gradient(input, input->sample[i], (int)place[1], seed, adjoint[i], number_adjoint);
+}
+
+const ves_measure ves_measure_max = {.name = "max",
+                                     .about = "largest value of a formula over the surface",
+                                     .unit = NULL,
+                                     .degree = VES_NO_DEGREE,
+                                     .surface = VES_POINTWISE_SURFACE,
+                                     .keys = KEYS,
+                                     .room = room,
+                                     .eval = eval,
+                                     .gradient = gradient};

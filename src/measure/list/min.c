@@ -1,0 +1,43 @@
+#include "measure/pointwise.h"
+
+static const ves_key KEYS[] = {{.name = "of",
+                                .kind = VES_POINTWISE,
+                                .required = true,
+                                .about = "formula of x, y, z, H, K, k1, k2, u, v"},
+                               {.name = NULL}};
+
+/* room: the formula's scratch, then sample and node of the least. */
+static size_t room(const ves_measure_input *input)
+{
+    return ves_pointwise_scratch(input) + 2;
+}
+
+/* The least value of a formula over the nodes: of second order in their spacing. VES_NO_NUMBER where the
+ * formula is no number. test  torus in closed form; differences */
+static ves_status eval(const ves_measure_input *input, double *value)
+{
+    double *place = input->room + ves_pointwise_scratch(input);
+    ves_pointwise_top top;
+    VES_TRY(ves_pointwise_largest(input, -1, &top));
+    place[0] = top.sample, place[1] = top.node;
+    *value = -top.value;
+    return VES_OK;
+}
+
+static void gradient(const ves_measure_input *input, double seed, const ves_adjoint *const *adjoint,
+                     double *number_adjoint)
+{
+    const double *place = input->room + ves_pointwise_scratch(input);
+    int i = (int)place[0];
+    ves_pointwise_gradient(input, input->sample[i], (int)place[1], seed, adjoint[i], number_adjoint);
+}
+
+const ves_measure ves_measure_min = {.name = "min",
+                                     .about = "least value of a formula over the surface",
+                                     .unit = NULL,
+                                     .degree = VES_NO_DEGREE,
+                                     .surface = VES_POINTWISE_SURFACE,
+                                     .keys = KEYS,
+                                     .room = room,
+                                     .eval = eval,
+                                     .gradient = gradient};

@@ -1,0 +1,73 @@
+#include "measure/pointwise.h"
+
+#include <math.h>
+
+#include "formula/formula.h"
+#include "measure/principal.h"
+
+/* In the order of the arguments that the reader compiles POINTWISE formulas with. */
+enum { AT_X, AT_Y, AT_Z, AT_H, AT_K, AT_K1, AT_K2, AT_U, AT_V, NAMES };
+
+static const ves_formula *formula_of(const ves_measure_input *input)
+{
+    return input->args->arg[0].formula[0];
+}
+
+size_t ves_pointwise_scratch(const ves_measure_input *input)
+{
+    return (size_t)ves_formula_room(formula_of(input));
+}
+
+size_t ves_pointwise_nodes(const ves_measure_input *input)
+{
+    size_t nodes = 0;
+    for (int i = 0; i < input->samples; i++)
+        if (input->sample[i]->site == VES_SITE_SURFACE) nodes += (size_t)input->sample[i]->count;
+    return nodes;
+}
+
+static ves_principal fill(const ves_samples *s, int n, double at[NAMES])
+{
+    ves_principal k = ves_principal_init(s->H[n], s->K[n]);
+    at[AT_X] = s->X[0][n], at[AT_Y] = s->X[1][n], at[AT_Z] = s->X[2][n];
+    at[AT_H] = s->H[n], at[AT_K] = s->K[n], at[AT_K1] = k.k1, at[AT_K2] = k.k2;
+    at[AT_U] = s->u[n % s->nu], at[AT_V] = s->v[n / s->nu];
+    return k;
+}
+
+double ves_pointwise_eval(const ves_measure_input *input, const ves_samples *s, int node)
+{
+    double at[NAMES];
+    fill(s, node, at);
+    return ves_formula_eval(formula_of(input), input->number, at, input->room);
+}
+
+double ves_pointwise_gradient(const ves_measure_input *input, const ves_samples *s, int node, double weight,
+                              const ves_adjoint *adjoint, double *number_adjoint)
+{
+    double at[NAMES], g[NAMES] = {0};
+    ves_principal k = fill(s, node, at);
+    double value =
+        ves_formula_gradient(formula_of(input), input->number, at, weight, number_adjoint, g, input->room);
+    if (!adjoint->X[0]) return value;
+    for (int c = 0; c < 3; c++) adjoint->X[c][node] += g[AT_X + c];
+    adjoint->H[node] += g[AT_H];
+    adjoint->K[node] += g[AT_K];
+    ves_principal_gradient(&k, g[AT_K1], g[AT_K2], &adjoint->H[node], &adjoint->K[node]);
+    return value;
+}
+
+ves_status ves_pointwise_largest(const ves_measure_input *input, double sign, ves_pointwise_top *top)
+{
+    *top = (ves_pointwise_top){.sample = -1, .value = -HUGE_VAL};
+    for (int i = 0; i < input->samples; i++) {
+        const ves_samples *s = input->sample[i];
+        if (s->site != VES_SITE_SURFACE) continue;
+        for (int n = 0; n < s->count; n++) {
+            double value = sign * ves_pointwise_eval(input, s, n);
+            if (!isfinite(value)) return VES_NO_NUMBER;
+            if (value > top->value) *top = (ves_pointwise_top){i, n, value};
+        }
+    }
+    return top->sample >= 0 ? VES_OK : VES_NO_NUMBER;
+}

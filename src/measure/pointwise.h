@@ -1,0 +1,28 @@
+/* Formulas of x, y, z, H, K, k1, k2, u, v at the nodes of the surface, for the measures whose first key is
+ * the POINTWISE `of`. The first doubles of their room are the formula's scratch. */
+#ifndef VES_MEASURE_POINTWISE_H
+#define VES_MEASURE_POINTWISE_H
+
+#include "vesica/measure.h"
+
+enum { VES_POINTWISE_SURFACE = VES_X | VES_AREA | VES_CURVATURE };
+
+/* Doubles of scratch of the formula, and nodes of all surfaces. */
+size_t ves_pointwise_scratch(const ves_measure_input *input);
+size_t ves_pointwise_nodes(const ves_measure_input *input);
+
+double ves_pointwise_eval(const ves_measure_input *input, const ves_samples *s, int node);
+
+/* Adds weight * df / d (X, H, K at the node) to the planes, where the adjoint has them, and weight * df / d
+ * slot. Returns the value of the formula. */
+double ves_pointwise_gradient(const ves_measure_input *input, const ves_samples *s, int node, double weight,
+                              const ves_adjoint *adjoint, double *number_adjoint);
+
+/* The largest value of sign * formula over the nodes; VES_NO_NUMBER: somewhere it is no number. */
+typedef struct ves_pointwise_top {
+    int sample, node;
+    double value;
+} ves_pointwise_top;
+ves_status ves_pointwise_largest(const ves_measure_input *input, double sign, ves_pointwise_top *top);
+
+#endif

@@ -1,0 +1,32 @@
+#include "measure/sum.h"
+
+ves_status ves_sum_eval(const ves_measure_input *input, ves_quadratic f, double *value)
+{
+    double sum = 0;
+    for (int i = 0; i < input->samples; i++) {
+        const ves_samples *s = input->sample[i];
+        if (s->site != VES_SITE_SURFACE) continue;
+        const double *restrict H = s->H, *restrict K = s->K, *restrict dA = s->dA;
+#pragma omp simd reduction(+ : sum)
+        for (int n = 0; n < s->count; n++) sum += (f.h * H[n] * H[n] + f.k * K[n] + f.m * H[n]) * dA[n];
+    }
+    *value = sum;
+    return VES_OK;
+}
+
+void ves_sum_gradient(const ves_measure_input *input, ves_quadratic f, double seed,
+                      const ves_adjoint *const *adjoint)
+{
+    for (int i = 0; i < input->samples; i++) {
+        const ves_samples *s = input->sample[i];
+        if (s->site != VES_SITE_SURFACE || !adjoint[i]->dA) continue;
+        const double *restrict H = s->H, *restrict K = s->K, *restrict dA = s->dA;
+        double *restrict gH = adjoint[i]->H, *restrict gK = adjoint[i]->K, *restrict gA = adjoint[i]->dA;
+#pragma omp simd
+        for (int n = 0; n < s->count; n++) {
+            gA[n] += seed * (f.h * H[n] * H[n] + f.k * K[n] + f.m * H[n]);
+            gH[n] += seed * (2 * f.h * H[n] + f.m) * dA[n];
+            gK[n] += seed * f.k * dA[n];
+        }
+    }
+}
