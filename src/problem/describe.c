@@ -1,0 +1,149 @@
+#include "problem/describe.h"
+
+#include <math.h>
+#include <string.h>
+
+const char ves_describe_formulas[] = "Any number may be a formula of variables, parameters and the unknown "
+                                     "of `solve`; goals and constraints read measures too.\n"
+                                     "\n"
+                                     "- Operators: `+ - * / ^` (`^` binds tighter than a minus sign and from "
+                                     "the right), comparisons `< <= > >= == !=`, which give 0 or\n"
+                                     "  1, and `and`, `or`, `not`.\n"
+                                     "- Functions: `sin cos tan asin acos atan atan2 sinh cosh tanh exp log "
+                                     "sqrt abs min max hypot sign floor mod`, `if(c, a, b)`;\n"
+                                     "  and `pi`.\n"
+                                     "- A unit follows a number: `2 mm`, `15 N/m`, `1050 kg/m^3`, `10 deg`, "
+                                     "`30 %`. It takes every `*`, `/` and `^` that another unit or\n"
+                                     "  exponent follows.\n"
+                                     "- As soon as one number of a file has a unit, dimensions are checked "
+                                     "everywhere in it, and a plain number is no length any more.\n"
+                                     "- To YAML a comma ends an item of a list: a formula with commas inside "
+                                     "brackets is quoted, `[\"max(a, b)\", 1]`.\n";
+
+const char ves_describe_names[] = "A name has letters, digits and `_`, a letter first. In formulas the words "
+                                  "`u v pi and or not if auto true false null`, the\n"
+                                  "functions, and `objective violation feasible evaluations gradients "
+                                  "optima` have meanings of their own. A variable or parameter may\n"
+                                  "bear the name of a measure, which it then hides. `x y z H K k1 k2` mean "
+                                  "the surface in formulas at its points.\n";
+
+void ves_describe_kind(ves_writer *writer, const ves_key *key)
+{
+    static const char *const plain[] = {"",
+                                        "number",
+                                        "[x, y, z]",
+                                        "number or [x, y, z]",
+                                        "list of numbers",
+                                        "list of points [[x, y, z], ...]",
+                                        "list [[number, curve], ...]",
+                                        "whole number",
+                                        "true or false",
+                                        "",
+                                        "text",
+                                        "curve",
+                                        "place or curve",
+                                        "patch, or list of patches",
+                                        "three formulas",
+                                        "formula of x, y, z, H, K, k1, k2, u, v"};
+    static const char *const compound[] = {"mapping",
+                                           "names",
+                                           "list",
+                                           "[min, start, max]",
+                                           "[from, to]",
+                                           "rows of points",
+                                           "new name",
+                                           "letters",
+                                           "curve kind",
+                                           "move",
+                                           "measure",
+                                           "stage",
+                                           "algorithm",
+                                           "whole number",
+                                           "formula of measures",
+                                           "equation a == b",
+                                           "relation a <= b, a >= b or a == b",
+                                           "formula of measures",
+                                           "PATCH.u0 or PATCH.u1",
+                                           "later"};
+    int kind = (int)key->kind;
+    if (kind == VES_CHOICE) {
+        for (const char *c = key->words; *c; c++)
+            if (*c == '|')
+                ves_write(writer, " or ");
+            else
+                ves_write(writer, "%c", *c);
+        return;
+    }
+    if (kind >= VES_MAP && key->words) ves_write(writer, "%s, or a ", key->words);
+    ves_write(writer, "%s", kind < VES_MAP ? plain[kind] : compound[kind - VES_MAP]);
+}
+
+static bool number_kind(const ves_key *key)
+{
+    return key->kind == VES_NUMBER || key->kind == VES_COUNT || (int)key->kind == VES_SEED;
+}
+
+void ves_describe_default(ves_writer *writer, const ves_key *key)
+{
+    if (key->required)
+        ves_write(writer, "required");
+    else if (key->kind == VES_FLAG)
+        ves_write(writer, "default %s", key->fallback != 0 ? "true" : "false");
+    else if (key->kind == VES_CHOICE) {
+        const char *word = key->words;
+        for (int k = 0; k < (int)key->fallback; k++) word = strchr(word, '|') + 1;
+        ves_write(writer, "default %.*s", (int)strcspn(word, "|"), word);
+    } else if (number_kind(key) && !isnan(key->fallback)) {
+        ves_write(writer, "default %.12g", key->fallback);
+    }
+}
+
+void ves_describe_limits(ves_writer *writer, const ves_key *key)
+{
+    bool bounded = key->min != 0 || key->max != 0, above = bounded && !isinf(key->min),
+         below = bounded && !isinf(key->max);
+    const char *gap = "";
+    if (above && below)
+        ves_write(writer, "%.12g .. %.12g", key->min, key->max);
+    else if (above || below)
+        ves_write(writer, "%s %.12g", above ? ">=" : "<=", above ? key->min : key->max);
+    if (bounded) gap = ", ";
+    if (key->unit && strcmp(key->unit, "1")) ves_write(writer, "%sin %s", gap, key->unit);
+}
+
+static void sample(ves_writer *writer, const ves_key *key)
+{
+    static const char *const text[] = {
+        "",          "",       "[0, 0, 1]",
+        "2",         "[2, 1]", "[[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]",
+        "[[1, p1]]", "",       "true",
+        "",          "text",   "p1",
+        "p1",        "[wall]", "[\"cos(v)\", \"sin(v)\", \"0\"]",
+        "\"H^2\""};
+    if (number_kind(key))
+        ves_write(writer, "%g", key->min > 1 ? ceil(key->min / 2) * 2 : 1.0);
+    else if (key->kind == VES_CHOICE)
+        ves_write(writer, "%.*s", (int)strcspn(key->words, "|"), key->words);
+    else
+        ves_write(writer, "%s", text[key->kind]);
+}
+
+void ves_describe_example(ves_writer *writer, const char *name, const ves_key *keys)
+{
+    int required = 0;
+    for (const ves_key *key = keys; key && key->name; key++) required += key->required;
+    ves_write(writer, "{%s: ", name);
+    if (keys && keys->name && required <= 1 && keys->required) {
+        sample(writer, keys);
+    } else {
+        const char *gap = "{";
+        for (const ves_key *key = keys; key && key->name; key++) {
+            if (!key->required) continue;
+            ves_write(writer, "%s%s: ", gap, key->name);
+            sample(writer, key);
+            gap = ", ";
+        }
+        ves_write(writer, "%s}", *gap == '{' ? "{" : "");
+    }
+    ves_write(writer, "}");
+}

@@ -1,0 +1,202 @@
+/* Problem: a problem file, read, checked and resolved: every name is an index, every number a compiled
+ * formula. Constant after reading; shared by all threads. Owns everything it points to.
+ *
+ * The number block that all rooms index is one flat array of doubles:
+ *     [ variables | unknown of solve (0 or 1) | parameters | numbers ]
+ * The first three are the *slots* that formulas read by name. A parameter may be a formula of slots before
+ * it. */
+#ifndef VES_PROBLEM_PROBLEM_H
+#define VES_PROBLEM_PROBLEM_H
+
+#include "curve/curve.h"
+#include "formula/formula.h"
+#include "vesica/measure.h"
+#include "vesica/search.h"
+
+typedef struct ves_variable {
+    const char *name;
+    ves_mark mark;
+    double min, start, max;
+    ves_dim dim;
+} ves_variable;
+
+typedef struct ves_parameter {
+    const char *name;
+    ves_mark mark;
+    const ves_formula *formula; /* of earlier slots */
+} ves_parameter;
+
+/* solve: {unknown, in, equation}: the unknown's value is the root in [lo, hi]. Formulas read slots and, as
+ * arguments, the values of the measures (index = measure instance). */
+typedef struct ves_solve {
+    ves_mark mark;
+    const char *name;
+    double lo, hi;
+    ves_dim dim;
+    const ves_formula *left, *right;
+} ves_solve;
+
+/* scale: {equation: MEASURE == formula of slots}: the whole shape is scaled by similarity about the origin.
+ */
+typedef struct ves_scale {
+    ves_mark mark;
+    int measure;
+    const ves_formula *target;
+} ves_scale;
+
+typedef struct ves_condition {
+    ves_mark mark;
+    double u;       /* 0 or 1 in format 1, order 2N <= 4 */
+    int derivative; /* 0: position; k: d^k X / du^k */
+    int curve;      /* position, or the field; of a difference the curve `to` */
+    int from;       /* the curve `from` of a difference, or -1 */
+    int scale;      /* number block index, or -1: 1 */
+} ves_condition;
+
+typedef enum ves_patch_kind { VES_PATCH_PDE, VES_PATCH_FORMULA, VES_PATCH_POINTS } ves_patch_kind;
+
+typedef struct ves_patch_def {
+    const char *name;
+    ves_mark mark;
+    ves_patch_kind kind;
+    bool periodic; /* in v; a PDE patch always is */
+    /* PDE */
+    int power; /* (d_uu + a^2 d_vv)^power */
+    int a;     /* number block index */
+    int modes; /* modes solved exactly; 0: all up to the data's band limit */
+    int conditions;
+    const ves_condition *condition;
+    /* FORMULA: arguments 0, 1 are u, v in the domain below */
+    const ves_formula *formula[3];
+    double u_range[2], v_range[2];
+    /* POINTS: a grid of rows (along u) x columns (along v), three numbers each from `points`, interpolated by
+     * cubic splines */
+    int rows, columns, points;
+} ves_patch_def;
+
+/* A place: one named point of a patch. */
+typedef struct ves_place {
+    const char *name;
+    ves_mark mark;
+    int patch;
+    int u, v; /* number block indices */
+} ves_place;
+
+typedef struct ves_end {
+    ves_mark mark;
+    int patch, end; /* end 0: u = 0, 1: u = 1 */
+} ves_end;
+
+typedef struct ves_shape_def {
+    ves_mark mark;
+    bool closed; /* the file says so; the plan checks it */
+    int caps;
+    const ves_end *cap;
+} ves_shape_def;
+
+typedef struct ves_measure_def {
+    const char *name; /* as formulas use it */
+    ves_mark mark;
+    const ves_measure *measure;
+    ves_args args;
+    int over; /* number of patches named, 0: all */
+    const int *patch;
+    ves_dim dim;
+} ves_measure_def;
+
+typedef enum ves_relation { VES_AT_MOST, VES_AT_LEAST, VES_EQUAL } ves_relation;
+
+/* left RELATION right. Formulas read slots and measures (arguments). */
+typedef struct ves_constraint_def {
+    ves_mark mark;
+    const char *text; /* as written */
+    ves_relation relation;
+    const ves_formula *left, *right;
+    double within; /* feasible when the scaled violation is at most this; 1e-6 unless said */
+} ves_constraint_def;
+
+/* expect: a formula that must not be 0. Arguments: the measures, then VES_EXPECT_... */
+typedef struct ves_expect_def {
+    ves_mark mark;
+    const char *text;
+    const ves_formula *formula;
+} ves_expect_def;
+
+enum {
+    VES_EXPECT_OBJECTIVE,
+    VES_EXPECT_VIOLATION,
+    VES_EXPECT_FEASIBLE,
+    VES_EXPECT_EVALUATIONS,
+    VES_EXPECT_GRADIENTS,
+    VES_EXPECT_OPTIMA,
+    VES_EXPECT_NAMES
+};
+
+typedef struct ves_validity_def {
+    bool jacobian;          /* default true */
+    bool self_intersection; /* `best`: CGAL on accepted bests; default true, `never` false */
+    /* least_radius: {value, axis, over}; monotone: {along, over}; absent: number index -1 */
+    int least_radius, axis;
+    int radius_patches;
+    const int *radius_patch;
+    int monotone;
+    int monotone_patches;
+    const int *monotone_patch;
+} ves_validity_def;
+
+typedef struct ves_problem {
+    ves_arena arena;
+    const char *path, *name, *title; /* name: the file's name without folder and ending */
+    const char *text;                /* the file as run: with --set applied, comments kept */
+    bool units;                      /* some number of the file has a unit: then dimensions are checked */
+
+    int variables, unknowns, parameters, slots, numbers,
+        block; /* slots: first three; block: slots + numbers */
+    const ves_variable *variable;
+    const ves_solve *solve; /* NULL: none */
+    const ves_parameter *parameter;
+    const ves_formula *const *number; /* number k is block entry slots + k */
+    const bool *varying;              /* [block]: depends on a variable or on the unknown */
+
+    int curves, patches, places, measures, constraints, expects, test_expects;
+    int curve_limit;            /* most modes of a curve */
+    const ves_curve_def *curve; /* inputs before users */
+    const ves_patch_def *patch;
+    const ves_place *place;
+    ves_shape_def shape;
+    const ves_measure_def *measure;
+    const ves_scale *scale;       /* NULL: none */
+    const ves_formula *objective; /* of slots and measures; NULL: nothing to optimise */
+    const char *objective_text;
+    bool maximize;
+    const ves_constraint_def *constraint;
+    ves_validity_def validity;
+    int quadrature[2]; /* nodes along u and v; 0: chosen from the problem */
+
+    ves_search_options search; /* stages; `auto` when the file says nothing */
+    const ves_expect_def *expect;
+    ves_search_options test;           /* what `test:` overrides: budget and stages */
+    const ves_expect_def *test_expect; /* replaces expect in a test run when given */
+} ves_problem;
+
+/* One --set name=value. Name: a variable (then its start), a parameter, or a dotted path of keys
+ * (patches.wall.operator.a). */
+typedef struct ves_override {
+    const char *name, *value;
+} ves_override;
+
+typedef struct ves_read_options {
+    int overrides;
+    const ves_override *override;
+    const ves_measure *const *plugin; /* NULL-terminated extra measures, or NULL */
+} ves_read_options;
+
+/* Reads a file, or a text under a name. Every error of the file is in diag, not only the first. On failure
+ * *problem is NULL. */
+ves_status ves_problem_read(const char *path, const ves_read_options *options, ves_problem **problem,
+                            ves_diag *diag);
+ves_status ves_problem_read_text(const char *name, const char *text, size_t length,
+                                 const ves_read_options *options, ves_problem **problem, ves_diag *diag);
+void ves_problem_destroy(ves_problem *problem);
+
+#endif

@@ -1,0 +1,201 @@
+/* Reader: what all parts of the reading of one problem file share. Parts report what is wrong and go on, so
+ * that every error of a file comes in one go; only lack of memory ends the reading early. After an error the
+ * problem is never handed out, so parts may leave holes (NULL formulas, index -1) behind them, and must bear
+ * those of others. */
+#ifndef VES_PROBLEM_READER_H
+#define VES_PROBLEM_READER_H
+
+#include "problem/problem.h"
+#include "problem/schema.h"
+#include "problem/tree.h"
+
+enum { VES_NAMES = 1000, VES_SLOTS = 2000, VES_KEYS = 32 };
+
+/* The names of one section, in the order of the file. */
+typedef struct ves_named {
+    const char *text;
+    const ves_node *word, *value;
+    int index; /* in the problem; -1: not read yet */
+    bool open; /* being read: meeting it again is a circle */
+} ves_named;
+
+typedef struct ves_names {
+    const char *what; /* "curve" */
+    int count;
+    ves_named *name;
+} ves_names;
+
+/* A message, kept until all are there: they are handed out in the order of the file. */
+typedef struct ves_message {
+    ves_severity severity;
+    ves_status status;
+    ves_mark mark;
+    const char *text;
+    int order;
+} ves_message;
+
+/* Every formula, and what it is for: numbers and formulas of curve k have owner k, the others -1. */
+typedef struct ves_use {
+    const ves_formula *formula;
+    int owner;
+} ves_use;
+
+typedef struct ves_reader {
+    ves_arena *arena;
+    const ves_script *script;
+    ves_status status;    /* of the first failure */
+    ves_message *message; /* growing */
+    int messages, message_room, errors;
+    bool dimensions; /* check them */
+    bool units;      /* some number has a unit */
+    ves_problem *problem;
+    const ves_measure *const *plugin;
+
+    int slots;        /* variables, unknown, parameters */
+    ves_symbol *slot; /* [slots] */
+    double *value;    /* [slots] at the start design; NAN: not known */
+    bool *varying;    /* [slots] */
+    double *room;     /* scratch of formulas */
+    int rooms;
+
+    const ves_formula **number; /* growing */
+    int numbers, number_room;
+    ves_use *use;
+    int uses, use_room;
+    int owner;     /* of the numbers that are being read */
+    ves_dim *free; /* dimension of keys without a unit; NULL: none is asked */
+    bool surface;  /* FORMULAS are of u and v, not of v alone */
+
+    ves_names curves, patches, places, measures;
+    const ves_node *vary; /* the section, or NULL */
+    bool *curve_used;     /* [curves] */
+    ves_curve_def *curve; /* [curves] in the order of the problem */
+    int curves_read;
+    ves_measure_def *measure; /* configured, then plain ones as formulas name them */
+    int measures_read;
+} ves_reader;
+
+/* One key of a table and what the file has for it. */
+typedef struct ves_field {
+    const ves_key *key;
+    const ves_node *node; /* NULL: not given */
+    const ves_node *word; /* the key as it stands in the file, or NULL */
+    bool excused;         /* not given, but an unknown key was probably meant to be it */
+} ves_field;
+
+typedef struct ves_fields {
+    int count;
+    ves_field field[VES_KEYS];
+} ves_fields;
+
+/* fail.c */
+void ves_reader_fail(ves_reader *reader, ves_status status, ves_mark mark, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+void ves_reader_error(ves_reader *reader, ves_status status, const ves_node *node, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+void ves_reader_warn(ves_reader *reader, ves_mark mark, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* Nobody will read a further message: no need to look for suggestions. */
+bool ves_reader_full(const ves_reader *reader);
+/* Hands the messages to the diagnostics. */
+void ves_reader_tell(ves_reader *reader, ves_diag *diag);
+/* A number for people. */
+void ves_reader_show(double value, char text[32]);
+bool ves_reader_memory(ves_reader *reader,
+                       const void *block); /* false, and the failure noted, when block is NULL */
+ves_mark ves_reader_mark(const ves_reader *reader, const ves_node *node);
+/* ", did you mean "x"?" or "". */
+const char *ves_reader_suggestion(ves_reader *reader, const char *word, const char *const *candidate,
+                                  int count);
+
+/* fields.c: matches a mapping with a table. what: for messages. entries: the table is of ves_entry, else of
+ * ves_key. extra: one more key, or NULL. Returns whether the node is a mapping. */
+bool ves_fields_read(ves_reader *reader, const ves_node *node, const ves_entry *table, const char *what,
+                     ves_fields *fields);
+bool ves_fields_read_keys(ves_reader *reader, const ves_node *node, const ves_key *keys, const ves_key *extra,
+                          const char *what, ves_fields *fields);
+const ves_node *ves_fields_find(const ves_fields *fields, const char *name);
+bool ves_fields_excused(const ves_fields *fields, const char *name);
+
+/* names.c; formulas: the names stand in formulas */
+void ves_names_read(ves_reader *reader, const ves_node *section, const char *what, bool formulas,
+                    ves_names *names);
+ves_named *ves_names_find(const ves_names *names, const char *text);
+/* As find; reports a name that is not there. */
+ves_named *ves_names_ask(ves_reader *reader, const ves_names *names, const ves_node *node);
+
+/* number.c: formulas */
+typedef struct ves_text_part { /* a part of a word: text[from .. to) */
+    const ves_node *node;
+    int from, to;
+} ves_text_part;
+const ves_formula *ves_reader_formula(ves_reader *reader, ves_text_part part, const ves_symbol *argument,
+                                      int arguments);
+ves_text_part ves_text_whole(const ves_node *node);
+/* Value at the start design; NAN when it is not known. */
+double ves_reader_value(ves_reader *reader, const ves_formula *formula);
+bool ves_reader_varies(const ves_reader *reader, const ves_formula *formula);
+/* Appends a number to the block; returns its index there. */
+int ves_reader_append(ves_reader *reader, const ves_formula *formula);
+/* One number as key says; NULL when it is not one. */
+const ves_formula *ves_reader_number(ves_reader *reader, const ves_node *node, const ves_key *key);
+/* A number that is known before any variable is; NAN after an error. */
+double ves_reader_constant(ves_reader *reader, const ves_node *node, const ves_key *key);
+long ves_reader_count(ves_reader *reader, const ves_node *node, const ves_key *key);
+/* Checks a dimension against a unit ("m"); NULL unit: the reader's free dimension. */
+void ves_reader_check_dim(ves_reader *reader, const ves_node *node, const char *name, const char *unit,
+                          ves_dim dim);
+bool ves_reader_word(ves_reader *reader, const ves_node *node, const char *what);
+
+/* args.c: arguments by a table of keys */
+void ves_reader_arg(ves_reader *reader, const ves_field *field, ves_arg *arg);
+void ves_reader_args(ves_reader *reader, const ves_fields *fields, int count, const ves_node *node,
+                     ves_args *args);
+int ves_reader_choice(ves_reader *reader, const ves_node *node, const ves_key *key);
+bool ves_reader_flag(ves_reader *reader, const ves_node *node, const ves_key *key);
+const int *ves_reader_patches(ves_reader *reader, const ves_node *node, int *count);
+int ves_reader_curve(ves_reader *reader, const ves_node *node); /* index, or -1 */
+
+/* curves.c: the index of a curve, which is read first when it has not been; node: who asks */
+int ves_reader_curve_read(ves_reader *reader, const ves_node *node, ves_named *curve);
+
+/* slots.c: names and values of variables, unknown, parameters */
+void ves_reader_slots(ves_reader *reader, const ves_fields *root);
+/* Can the word be a name? formulas: in formulas too, where some words have a meaning. A slot may bear the
+ * name of a measure: it hides it, so that a measure that is added later does not break a file. */
+bool ves_reader_new_name(ves_reader *reader, const ves_node *word, const char *what, bool formulas);
+
+/* vary.c */
+typedef struct ves_declared { /* one variable, by the file or by vary */
+    const char *name;
+    const ves_node *word;
+    const ves_node *range;  /* NULL: by the letter */
+    const double *fallback; /* then its [min, start, max] */
+} ves_declared;
+int ves_vary_count(const ves_node *vary);
+void ves_vary_read(ves_reader *reader, const ves_node *vary, ves_declared *variable, int *count);
+/* The moves that vary adds to a curve: synthetic items for its apply list. */
+void ves_vary_moves(ves_reader *reader, const ves_node *vary, const ves_named *curve,
+                    const ves_node *moves[3], int *count);
+
+/* sections */
+void ves_reader_curves(ves_reader *reader, const ves_fields *root);
+void ves_reader_patches_section(ves_reader *reader, const ves_fields *root);
+void ves_reader_places(ves_reader *reader, const ves_fields *root);
+void ves_reader_settings(ves_reader *reader, const ves_fields *root); /* shape, validity, quadrature */
+void ves_reader_shape(ves_reader *reader, const ves_node *node);
+void ves_reader_validity(ves_reader *reader, const ves_node *node);
+void ves_reader_quadrature(ves_reader *reader, const ves_node *node);
+void ves_reader_measures(ves_reader *reader, const ves_fields *root);
+/* Instantiates the plain measures that a formula names. */
+void ves_reader_plain_measures(ves_reader *reader, const ves_node *node);
+/* What formulas of measures read: the instances, for checks VES_EXPECT_NAMES more, then measures that nobody
+ * has named yet, so that a misspelt one is suggested. */
+ves_symbol *ves_reader_symbols(ves_reader *reader, bool expect, int *count);
+void ves_reader_goals(ves_reader *reader, const ves_fields *root);
+void ves_reader_search(ves_reader *reader, const ves_fields *root);
+
+/* finish.c: the number block, what varies, and variables that drive nothing. */
+void ves_reader_finish(ves_reader *reader, const ves_fields *root);
+
+#endif

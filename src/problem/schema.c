@@ -1,0 +1,247 @@
+#include "problem/schema.h"
+
+#include <math.h>
+#include <string.h>
+
+#define END                                                                                                  \
+    {                                                                                                        \
+        .key = {.name = NULL }                                                                               \
+    }
+#define LATER(word, what)                                                                                    \
+    {                                                                                                        \
+        .key = {.name = word, .kind = (ves_kind)VES_LATER, .about = what }                                   \
+    }
+#define KIND(kind) ((ves_kind)(kind))
+
+/* The tables read like a form: one entry a line, whatever its length. */
+/* clang-format off */
+
+static const ves_entry parameter[] = {
+    {{"parameter", VES_NUMBER, .about = "a number: a formula of variables and of other parameters"}, "gap: 2 mm", NULL},
+    END};
+
+static const ves_entry variable[] = {
+    {{"variable", KIND(VES_INTERVAL), .about = "[min, start, max]: formulas of constant parameters"}, "a: [0.01, 0.5, 9]", NULL},
+    END};
+
+static const ves_entry varied[] = {
+    {{"varied curve", KIND(VES_VARIED), .about = "letters T, R, D or letters with an axis (Tx, Ry); or a map of letters to [min, start, max]"},
+     "d1: [T, Rx, Rz, D]", NULL},
+    END};
+
+static const ves_entry start[] = {
+    {{"start", VES_NUMBER, .about = "the start value of a variable, instead of the one that its range gives"}, "d1Tx: 0.1", NULL},
+    END};
+
+static const ves_entry move[] = {
+    {{"move", KIND(VES_MOVE), .about = "{MOVE: what it needs}: see the moves"}, "translate: [0, gap, 0]", NULL},
+    END};
+
+static const ves_entry curve_keys[] = {
+    {{"apply", KIND(VES_LIST), .about = "moves, applied in this order"}, "apply: [{dilate: 2}, {translate: [0, 0, 1]}]", move},
+    LATER("family", "a family of curves for a patch made of sections"),
+    END};
+
+static const ves_entry curve[] = {
+    {{"curve", KIND(VES_SOURCE), .about = "{KIND: what it needs, apply: [...]}: see the curve kinds"}, "p1: {circle: {radius: 1}}", curve_keys},
+    END};
+
+static const ves_entry operator_keys[] = {
+    {{"power", VES_COUNT, .required = true, .min = 1, .max = 2, .about = "N of (d_uu + a^2 d_vv)^N: 1 needs two conditions, 2 needs four"}, "power: 2", NULL},
+    {{"a", VES_NUMBER, .unit = "1", .min = 0, .max = HUGE_VAL, .fallback = 1, .about = "smoothing parameter: how fast the ends are forgotten inside; 0 is straight or cubic in u"}, "a: 0.925", NULL},
+    LATER("coefficients", "operators with general coefficients"),
+    LATER("x", "an operator of its own for each coordinate"),
+    LATER("y", "an operator of its own for each coordinate"),
+    LATER("z", "an operator of its own for each coordinate"),
+    END};
+
+static const ves_entry condition_keys[] = {
+    {{"u", VES_NUMBER, .required = true, .unit = "1", .about = "where: 0 or 1, the ends of the patch"}, "u: 0", NULL},
+    {{"derivative", VES_COUNT, .min = 0, .max = HUGE_VAL, .about = "0: the surface itself; 1: X_u"}, "derivative: 1", NULL},
+    {{"position", VES_CURVE, .about = "the curve that the surface meets"}, "position: p1", NULL},
+    {{"field", VES_CURVE, .about = "X_u = scale * field"}, "field: ring", NULL},
+    {{"from", VES_CURVE, .about = "with `to`: X_u = scale * (to - from)"}, "from: p1", NULL},
+    {{"to", VES_CURVE, .about = "with `from`: X_u = scale * (to - from)"}, "to: d1", NULL},
+    {{"scale", VES_NUMBER, .fallback = 1, .about = "length of the derivative"}, "scale: 2", NULL},
+    END};
+
+static const ves_entry condition[] = {
+    {{"condition", KIND(VES_MAP), .about = "the surface or its derivative along one end"}, "{u: 0, derivative: 1, from: p1, to: d1, scale: 2}", condition_keys},
+    END};
+
+static const ves_entry surface_keys[] = {
+    {{"formula", VES_FORMULAS, .about = "[x, y, z], formulas of u and v"}, "formula: [\"u*cos(v)\", \"u*sin(v)\", \"0\"]", NULL},
+    {{"points", KIND(VES_GRID), .about = "rows along u of points along v, joined by cubic splines"}, "points: [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]]", NULL},
+    END};
+
+static const ves_entry domain_keys[] = {
+    {{"u", KIND(VES_SPAN), .about = "[from, to], 0 to 1 unless given"}, "u: [0, 1]", NULL},
+    {{"v", KIND(VES_SPAN), .about = "[from, to], 0 to 2*pi unless given"}, "v: [0, 2*pi]", NULL},
+    END};
+
+static const ves_entry patch_keys[] = {
+    {{"operator", KIND(VES_MAP), .about = "the partial differential equation: (d_uu + a^2 d_vv)^power X = 0"}, "operator: {power: 2, a: 1}", operator_keys},
+    {{"conditions", KIND(VES_LIST), .about = "what the surface meets at its ends: 2 * power of them"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
+    {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved exactly; 0: all that the curves have"}, "modes: 8", NULL},
+    {{"surface", KIND(VES_MAP), .about = "instead of operator and conditions: the surface itself"}, "surface: {formula: [u, v, \"u*v\"]}", surface_keys},
+    {{"periodic", VES_FLAG, .fallback = 1, .about = "the surface closes in v (only with surface)"}, "periodic: false", NULL},
+    {{"domain", KIND(VES_MAP), .about = "ranges of u and v (only with surface)"}, "domain: {u: [0, 1], v: [0, 2*pi]}", domain_keys},
+    LATER("spine", "a centre line that is given"),
+    LATER("remainder", "a remainder with its own decay"),
+    LATER("sections", "patches through sections of a family"),
+    END};
+
+static const ves_entry patch[] = {
+    {{"patch", KIND(VES_MAP), .about = "operator and conditions, or a surface"}, "wall: {operator: {power: 1}, conditions: [{u: 0, position: p1}, {u: 1, position: p2}]}", patch_keys},
+    END};
+
+static const ves_entry place_keys[] = {
+    {{"patch", VES_PATCHES, .required = true, .about = "the patch"}, "patch: wall", NULL},
+    {{"u", VES_NUMBER, .required = true, .unit = "1", .min = 0, .max = 1, .about = "across the patch"}, "u: 0.5", NULL},
+    {{"v", VES_NUMBER, .required = true, .unit = "1", .about = "around the patch"}, "v: pi", NULL},
+    END};
+
+static const ves_entry place[] = {
+    {{"place", KIND(VES_MAP), .about = "one point of a patch"}, "tip: {patch: wall, u: 0.5, v: pi}", place_keys},
+    END};
+
+static const ves_entry end[] = {
+    {{"end", KIND(VES_END), .about = "an end of a patch: its name, then .u0 or .u1"}, "wall.u0", NULL},
+    END};
+
+static const ves_entry shape_keys[] = {
+    {{"closed", VES_FLAG, .about = "the patches, with the caps, enclose a volume"}, "closed: true", NULL},
+    {{"caps", KIND(VES_LIST), .about = "ends that are closed by a flat fan"}, "caps: [wall.u0, wall.u1]", end},
+    LATER("joins", "joins that are made rather than found by shared curves"),
+    END};
+
+static const ves_entry scale_keys[] = {
+    {{"equation", KIND(VES_EQUATION), .required = true, .about = "MEASURE == formula: the shape is scaled until it holds"}, "equation: area == 4*pi", NULL},
+    END};
+
+static const ves_entry solve_keys[] = {
+    {{"unknown", KIND(VES_NEW), .required = true, .about = "the name of the number to be found"}, "unknown: h", NULL},
+    {{"in", KIND(VES_SPAN), .required = true, .about = "[from, to]: where it lies; the equation holds once in between"}, "in: [20 mm, 80 mm]", NULL},
+    {{"equation", KIND(VES_EQUATION), .required = true, .about = "what it makes true, for every candidate"}, "equation: volume == 150 ml", NULL},
+    END};
+
+static const ves_entry measure[] = {
+    {{"measure", KIND(VES_INSTANCE), .about = "{MEASURE: what it needs}: see the measures"}, "lid: {area: {over: [wall]}}", NULL},
+    END};
+
+static const ves_entry relation_keys[] = {
+    {{"require", KIND(VES_RELATION), .required = true, .about = "the relation"}, "require: area <= 14", NULL},
+    {{"within", VES_NUMBER, .unit = "1", .min = 0, .max = HUGE_VAL, .fallback = 1e-6, .about = "feasible when |excess| / max(|limit|, the measure at the start) is at most this"}, "within: 1e-3", NULL},
+    END};
+
+static const ves_entry relation[] = {
+    {{"constraint", KIND(VES_RELATION), .about = "a relation <=, >= or == of formulas of measures"}, "area <= 14", relation_keys},
+    END};
+
+static const ves_entry radius_keys[] = {
+    {{"value", VES_NUMBER, .required = true, .unit = "m", .min = 0, .max = HUGE_VAL, .about = "the least distance from the axis"}, "value: 2 mm", NULL},
+    {{"axis", VES_VECTOR, .unit = "1", .about = "direction of the axis through the origin, [0, 0, 1] unless given"}, "axis: [0, 1, 0]", NULL},
+    {{"over", VES_PATCHES, .about = "the patches, all unless given"}, "over: [wall]", NULL},
+    END};
+
+static const ves_entry monotone_keys[] = {
+    {{"along", VES_VECTOR, .required = true, .unit = "1", .about = "the direction in which the surface must rise with u"}, "along: [0, 1, 0]", NULL},
+    {{"over", VES_PATCHES, .about = "the patches, all unless given"}, "over: [wall]", NULL},
+    END};
+
+static const ves_entry validity_keys[] = {
+    {{"jacobian", VES_CHOICE, .words = "positive|any", .about = "positive: a candidate whose surface folds back on itself is refused"}, "jacobian: positive", NULL},
+    {{"self_intersection", VES_CHOICE, .words = "best|never", .about = "best: every accepted best is checked for crossing itself"}, "self_intersection: best", NULL},
+    {{"least_radius", KIND(VES_MAP), .about = "the surface keeps away from an axis"}, "least_radius: {value: 0.1}", radius_keys},
+    {{"monotone", KIND(VES_MAP), .about = "the surface never turns back along a direction"}, "monotone: {along: [0, 1, 0]}", monotone_keys},
+    END};
+
+static const ves_entry quadrature_keys[] = {
+    {{"u", VES_COUNT, .min = 0, .max = 4096, .about = "Gauss nodes across a patch; 0: chosen"}, "u: 16", NULL},
+    {{"v", VES_COUNT, .min = 0, .max = 65536, .about = "nodes around a patch; 0: chosen"}, "v: 32", NULL},
+    END};
+
+static const ves_entry anneal_keys[] = {
+    {{"evaluations", VES_COUNT, .min = 0, .max = 2e9, .about = "budget, all chains together; 0: from the number of variables"}, "evaluations: 20000", NULL},
+    {{"chains", VES_COUNT, .min = 0, .max = 4096, .about = "independent chains; 0: 4"}, "chains: 4", NULL},
+    {{"c0", VES_NUMBER, .unit = "1", .min = 0, .max = HUGE_VAL, .fallback = NAN, .about = "first temperature; unless given, measured"}, "c0: 1", NULL},
+    {{"s", VES_NUMBER, .unit = "1", .min = 0, .max = 1, .fallback = NAN, .about = "schedule c_m = c0 exp((s-1) m); unless given, from the budget"}, "s: 0.9", NULL},
+    {{"c_end", VES_NUMBER, .unit = "1", .min = 0, .max = 1, .fallback = NAN, .about = "frozen at c_end * c0; 1e-4 unless given"}, "c_end: 1e-4", NULL},
+    {{"step", VES_NUMBER, .unit = "1", .min = 0, .max = 1, .fallback = NAN, .about = "first step width as a fraction of each range; 0.1 unless given"}, "step: 0.1", NULL},
+    {{"adapt", VES_FLAG, .fallback = 1, .about = "step widths follow the acceptance"}, "adapt: true", NULL},
+    {{"weight", VES_NUMBER, .unit = "1", .min = 0, .max = HUGE_VAL, .fallback = NAN, .about = "penalty per unit of violation; unless given, from the data"}, "weight: 10", NULL},
+    END};
+
+static const ves_entry polish_keys[] = {
+    {{"algorithm", KIND(VES_ALGORITHM), .about = "see the algorithms; unless given, by gradients and constraints"}, "algorithm: slsqp", NULL},
+    {{"evaluations", VES_COUNT, .min = 0, .max = 2e9, .about = "budget; 0: from the number of variables"}, "evaluations: 2000", NULL},
+    {{"x_tolerance", VES_NUMBER, .unit = "1", .min = 0, .max = 1, .fallback = NAN, .about = "stops when x moves less, relative to the ranges; 1e-9 unless given"}, "x_tolerance: 1e-8", NULL},
+    {{"f_tolerance", VES_NUMBER, .unit = "1", .min = 0, .max = 1, .fallback = NAN, .about = "stops when the objective changes less, relatively; 1e-12 unless given"}, "f_tolerance: 1e-10", NULL},
+    {{"starts", VES_COUNT, .min = 0, .max = 4096, .about = "how many ends of the stage before are polished; 0: all"}, "starts: 1", NULL},
+    {{"escape", VES_FLAG, .fallback = 1, .about = "leaves a saddle along a direction of negative curvature"}, "escape: true", NULL},
+    END};
+
+static const ves_entry stages[] = {
+    {{"anneal", KIND(VES_MAP), .about = "Metropolis annealing"}, "anneal: {evaluations: 20000}", anneal_keys},
+    {{"polish", KIND(VES_MAP), .about = "local search by NLopt"}, "polish: {algorithm: slsqp}", polish_keys},
+    END};
+
+static const ves_entry stage[] = {
+    {{"stage", KIND(VES_STAGE), .about = "one stage; it starts where the stage before ended"}, "anneal: {evaluations: 20000}", stages},
+    END};
+
+static const ves_entry check[] = {
+    {{"check", KIND(VES_CHECK), .about = "a formula that must hold at the end of a run: of measures, variables, parameters, objective, violation, feasible, evaluations, gradients, optima"},
+     "violation < 1e-6", NULL},
+    END};
+
+static const ves_entry test_keys[] = {
+    {{"evaluations", VES_COUNT, .min = 1, .max = 2e9, .fallback = NAN, .about = "budget of a test run"}, "evaluations: 500", NULL},
+    {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of a test run"}, "search: [{polish: {}}]", stage},
+    {{"expect", KIND(VES_LIST), .about = "checks of a test run, instead of those of expect"}, "expect: [feasible]", check},
+    END};
+
+static const ves_entry root[] = {
+    {{"vesica", VES_COUNT, .required = true, .about = "version of the format: 1"}, "vesica: 1", NULL},
+    {{"title", VES_TEXT, .about = "one line for people"}, "title: Least-curvature surface between two rings", NULL},
+    {{"parameters", KIND(VES_NAMED), .about = "named numbers that stay fixed in a run, or follow the variables"}, "parameters: {gap: 2, half: gap/2}", parameter},
+    {{"variables", KIND(VES_NAMED), .about = "named numbers that a search may change, each with its range"}, "variables: {a: [0.01, 0.5, 9]}", variable},
+    {{"vary", KIND(VES_NAMED), .about = "declares variables that move a curve: translation, rotation, dilation along x, y, z"}, "vary: {d1: [T, R, D]}", varied},
+    {{"start", KIND(VES_NAMED), .about = "start values of variables"}, "start: {d1Tx: 0.1}", start},
+    {{"curves", KIND(VES_NAMED), .about = "closed curves, and fields along them"}, "curves: {p1: {circle: {radius: 1}}}", curve},
+    {{"modes", VES_COUNT, .min = 1, .max = 4096, .fallback = VES_CURVE_MODES, .about = "most Fourier modes of a curve"}, "modes: 64", NULL},
+    {{"patches", KIND(VES_NAMED), .required = true, .about = "surfaces between curves"}, "patches: {wall: {operator: {power: 1}, conditions: [{u: 0, position: p1}, {u: 1, position: p2}]}}", patch},
+    {{"places", KIND(VES_NAMED), .about = "named points of patches"}, "places: {tip: {patch: wall, u: 0.5, v: pi}}", place},
+    {{"shape", KIND(VES_MAP), .about = "how the patches form one shape"}, "shape: {closed: true, caps: [wall.u0, wall.u1]}", shape_keys},
+    {{"scale", KIND(VES_MAP), .about = "scales the whole shape about the origin so that an equation holds exactly"}, "scale: {equation: area == 4*pi}", scale_keys},
+    {{"solve", KIND(VES_MAP), .about = "finds one more number from an equation, for every candidate"}, "solve: {unknown: h, in: [20 mm, 80 mm], equation: volume == 150 ml}", solve_keys},
+    {{"measures", KIND(VES_NAMED), .about = "measures with settings of their own; plain measures need no entry"}, "measures: {lid: {area: {over: [wall]}}}", measure},
+    {{"minimize", KIND(VES_GOAL), .about = "the objective: a formula of measures, variables and parameters"}, "minimize: bending", NULL},
+    {{"maximize", KIND(VES_GOAL), .about = "the objective, when more is better"}, "maximize: volume/area", NULL},
+    {{"constraints", KIND(VES_LIST), .about = "relations that the shape must meet"}, "constraints: [area <= 14]", relation},
+    {{"validity", KIND(VES_MAP), .about = "which surfaces are refused"}, "validity: {jacobian: positive, self_intersection: best}", validity_keys},
+    {{"quadrature", KIND(VES_MAP), .words = "auto", .about = "nodes of integrals on each patch"}, "quadrature: {u: 16, v: 32}", quadrature_keys},
+    {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of the search; auto: anneal, then polish"}, "search: [{anneal: {evaluations: 20000}}, {polish: {algorithm: slsqp}}]", stage},
+    {{"seed", KIND(VES_SEED), .fallback = 1, .about = "seed of the random numbers: same seed, same result"}, "seed: 7", NULL},
+    {{"expect", KIND(VES_LIST), .about = "checks at the end of a run"}, "expect: [violation < 1e-6]", check},
+    {{"test", KIND(VES_MAP), .about = "a smaller run for tests"}, "test: {evaluations: 500, expect: [feasible]}", test_keys},
+    LATER("shell", "thin-shell analysis"),
+    LATER("sweep", "studies over parameters"),
+    LATER("branches", "studies along branches of solutions"),
+    LATER("joins", "joins that are made rather than found by shared curves"),
+    LATER("animate", "parameters that follow time"),
+    END};
+
+const ves_entry ves_schema_root = {{"problem", KIND(VES_MAP), .about = "a problem file"}, NULL, root};
+
+/* clang-format on */
+
+const ves_key ves_schema_over = {
+    .name = "over", .kind = VES_PATCHES, .about = "the patches that are measured, all unless given"};
+
+const ves_entry *ves_schema_find(const ves_entry *table, const char *name)
+{
+    for (const ves_entry *e = table; e && e->key.name; e++)
+        if (!strcmp(e->key.name, name)) return e;
+    return NULL;
+}
