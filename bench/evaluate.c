@@ -1,0 +1,187 @@
+/* How fast one candidate is judged: one biharmonic patch, M = 6 modes, 16 x 32 nodes, six fields, area + flux
+ * + bending, against the plain baseline of bench/plain in the same run. Prints JSON Lines: the least of
+ * REPEATS runs, CPU time of this thread, and the ratio. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "measure/registry.h"
+#include "plain/textbook.h"
+#include "plan/inside.h"
+
+enum { REPEATS = 15, CALLS = 4000, PLAIN_CALLS = 100 };
+
+static const char PROBLEM[] =
+    "vesica: 1\n"
+    "quadrature: {u: 16, v: 32}\n"
+    "variables: {x: [-1, 0.1, 1], a: [0.1, 0.9, 5]}\n"
+    "curves:\n"
+    "  p:\n"
+    "    fourier:\n"
+    "      mean: [0, 0, 0]\n"
+    "      cos: [[1, 0, 0], [0.05, 0, 0.01], [0.02, 0.01, 0], [0.01, 0, 0], [0.004, 0, 0], [0.002, 0.001, "
+    "0]]\n"
+    "      sin: [[0, 1, 0], [0, 0.04, 0], [0, 0.02, 0.01], [0, 0.01, 0], [0, 0.003, 0], [0, 0.001, 0]]\n"
+    "    apply: [{translate: [x, 0, 0]}]\n"
+    "  q: {like: p, apply: [{dilate: [0.9, 1.1, 1]}, {translate: [0, 0, 2]}]}\n"
+    "  d: {like: p, apply: [{dilate: 0.3}, {translate: [0, 0, 1.5]}]}\n"
+    "patches:\n"
+    "  wall:\n"
+    "    operator: {power: 2, a: a}\n"
+    "    conditions: [{u: 0, position: p}, {u: 0, derivative: 1, field: d}, {u: 1, position: q}, {u: 1, "
+    "derivative: 1, field: d}]\n"
+    "minimize: bending + area + flux\n";
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+typedef struct bed {
+    ves_plan *plan;
+    double x[2], gradient[2];
+    textbook book;
+    double u[16], w[16], sum;
+} bed;
+
+static void ask(bed *b, unsigned want)
+{
+    ves_verdict verdict = {.gradient = b->gradient};
+    ves_ask one = {.x = b->x, .cutoff = HUGE_VAL, .want = want};
+    ves_plan_evaluate(b->plan, &one, &verdict);
+    b->sum += verdict.value;
+}
+
+static void new_boundary(bed *b)
+{
+    b->x[0] += 1e-12;
+    ask(b, VES_WANT_VALUE);
+}
+
+static void new_a(bed *b)
+{
+    b->x[1] += 1e-12;
+    ask(b, VES_WANT_VALUE);
+}
+
+static void with_gradient(bed *b)
+{
+    b->x[0] += 1e-12;
+    ask(b, VES_WANT_GRADIENT);
+}
+
+static void bind(bed *b)
+{
+    b->x[0] += 1e-12;
+    plan_bind(b->plan, b->x, 0);
+}
+
+static void bind_solve(bed *b)
+{
+    bind(b);
+    ves_chart_prepare(b->plan->level[0].site[0].chart, &b->plan->bound, false);
+}
+
+static void bind_solve_a(bed *b)
+{
+    b->x[1] += 1e-12;
+    bind_solve(b);
+}
+
+static void bind_solve_sample(bed *b)
+{
+    bind(b);
+    plan_site *s = &b->plan->level[0].site[0];
+    site_sample(b->plan, s, s->needs[PROGRAM_JUDGE], false);
+}
+
+static void plain(bed *b)
+{
+    double out[3];
+    textbook_measure(&b->book, 16, b->u, b->w, 32, out);
+    b->sum += out[0] + out[1] + out[2];
+}
+
+static double least_us(bed *b, void (*work)(bed *), int calls)
+{
+    double least = HUGE_VAL;
+    for (int r = 0; r < REPEATS; r++) {
+        double t = now();
+        for (int k = 0; k < calls; k++) work(b);
+        least = fmin(least, (now() - t) / calls * 1e6);
+    }
+    return least;
+}
+
+static double report(const char *name, double us, double plain_us)
+{
+    printf("{\"name\": \"%s\", \"us\": %.3f, \"per_second\": %.0f, \"plain_over_this\": %.1f}\n", name, us,
+           1e6 / us, plain_us / us);
+    return us;
+}
+
+/* The same number both ways, or the comparison means nothing. */
+static int agree(bed *b)
+{
+    const double *data[4];
+    static const int order[4] = {0, 2, 1, 2}; /* p, d, q, d */
+    double out[3], value[8];
+    for (int j = 0; j < 4; j++) data[j] = ves_curves_coef(b->plan->curves, order[j]);
+    textbook_solve(&b->book, b->x[1], data);
+    textbook_measure(&b->book, 16, b->u, b->w, 32, out);
+    ves_plan_measure(b->plan, b->x, 0, value);
+    double area = NAN, bending = NAN, volume = NAN;
+    for (int k = 0; k < b->plan->problem->measures; k++) {
+        if (!strcmp(b->plan->problem->measure[k].name, "area")) area = value[k];
+        if (!strcmp(b->plan->problem->measure[k].name, "bending")) bending = value[k];
+        if (!strcmp(b->plan->problem->measure[k].name, "flux")) volume = value[k];
+    }
+    return fabs(area - out[0]) < 1e-10 * area && fabs(bending - out[2]) < 1e-10 * bending &&
+           fabs(fabs(volume) - fabs(out[1])) < 1e-10 * area;
+}
+
+int main(void)
+{
+    static bed b;
+    char text[2000];
+    ves_diag *diag = ves_diag_create();
+    ves_measure flux =
+        *ves_measure_find("volume", NULL); /* the volume's integral over the patch alone, without caps */
+    flux.name = "flux", flux.closed = false, flux.cap = 0;
+    const ves_measure *const more[] = {&flux, NULL};
+    ves_read_options options = {.plugin = more};
+    ves_problem *problem;
+    if (ves_problem_read_text("bench", PROBLEM, strlen(PROBLEM), &options, &problem, diag) ||
+        ves_plan_create(problem, &(ves_plan_options){{0, 0}}, &b.plan, diag)) {
+        ves_diag_text(diag, 0, text, sizeof text);
+        fprintf(stderr, "%s\n", text);
+        return 4;
+    }
+    for (int k = 0; k < 2; k++) b.x[k] = problem->variable[k].start;
+    ves_gauss_nodes(16, b.u, b.w);
+    new_boundary(&b);
+    if (!agree(&b)) {
+        fprintf(stderr, "the baseline gives other numbers\n");
+        return 4;
+    }
+    double base = least_us(&b, plain, PLAIN_CALLS);
+    report("plain: eqs 4.12-4.14 node by node", base, base);
+    double boundary = report("evaluate, new boundary", least_us(&b, new_boundary, CALLS), base);
+    report("evaluate, new a", least_us(&b, new_a, CALLS), base);
+    double gradient = report("evaluate with gradient", least_us(&b, with_gradient, CALLS), base);
+    double t1 = report("stage: bind", least_us(&b, bind, CALLS), base);
+    double t2 = least_us(&b, bind_solve, CALLS), t3 = least_us(&b, bind_solve_sample, CALLS);
+    report("stage: solve (new boundary)", t2 - t1, base);
+    report("stage: solve (new a)", least_us(&b, bind_solve_a, CALLS) - t1, base);
+    report("stage: sample", t3 - t2, base);
+    report("stage: measure and judge", boundary - t3, base);
+    report("stage: gradient", gradient - boundary, base);
+    ves_plan_destroy(b.plan);
+    ves_problem_destroy(problem);
+    ves_diag_destroy(diag);
+    return b.sum == 0;
+}

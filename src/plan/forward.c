@@ -1,0 +1,111 @@
+/* Forward: programs. A program is a set of measures; running it samples what they read, once, and measures.
+ * With solve: the unknown is found first, with scale: the similarity. */
+#include "plan/inside.h"
+
+#include <math.h>
+
+static ves_status sample(ves_plan *plan, int index, plan_program which, bool gradient)
+{
+    plan_level *l = &plan->level[index];
+    for (int k = 0; k < l->sites; k++)
+        VES_TRY(site_sample(plan, &l->site[k], l->site[k].needs[which], gradient));
+    return VES_OK;
+}
+
+static ves_status measure(ves_plan *plan, int index, plan_program which)
+{
+    const ves_problem *p = plan->problem;
+    for (int m = 0; m < p->measures; m++) {
+        if (!plan->runs[which][m]) continue;
+        VES_TRY(p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]));
+        if (!isfinite(plan->value[m])) return VES_NO_NUMBER;
+    }
+    return VES_OK;
+}
+
+double plan_formula(ves_plan *plan, const ves_formula *formula)
+{
+    return ves_formula_eval(formula, plan->block, plan->value, plan->formula_room);
+}
+
+/* The similarity of scale: MEASURE == target, for a measure of degree d: s = (target / measure)^(1/d). */
+static ves_status scale(ves_plan *plan, int index, bool gradient)
+{
+    const ves_scale *sc = plan->problem->scale;
+    plan->similarity = 1;
+    if (!sc) return VES_OK;
+    VES_TRY(sample(plan, index, PROGRAM_SCALE, gradient));
+    VES_TRY(measure(plan, index, PROGRAM_SCALE));
+    double ratio = plan_formula(plan, sc->target) / plan->value[sc->measure];
+    double s = pow(ratio, 1. / plan->problem->measure[sc->measure].measure->degree);
+    if (!(ratio > 0) || !isfinite(s)) return VES_NO_ROOT;
+    plan->similarity = s;
+    return VES_OK;
+}
+
+ves_status plan_run(ves_plan *plan, int index, plan_program which, bool gradient)
+{
+    VES_TRY(scale(plan, index, gradient));
+    VES_TRY(sample(plan, index, which, gradient));
+    return measure(plan, index, which);
+}
+
+/* left - right of solve's equation when the unknown is h. */
+static ves_status residual(ves_plan *plan, const double *x, int index, double h, double *value)
+{
+    plan_bind(plan, x, h);
+    VES_TRY(plan_run(plan, index, PROGRAM_SOLVE, false));
+    *value = plan_formula(plan, plan->problem->solve->left) - plan_formula(plan, plan->problem->solve->right);
+    return isfinite(*value) ? VES_OK : VES_NO_NUMBER;
+}
+
+/* A bracketed root by inverse quadratic interpolation, secant or bisection (Brent 1973, ch. 4). It starts
+ * from the whole bracket for every candidate: the same x gives the same bits whatever was evaluated before.
+ */
+static ves_status solve(ves_plan *plan, const double *x, int index, double *root)
+{
+    const ves_solve *s = plan->problem->solve;
+    double a = s->lo, b = s->hi, fa, fb;
+    VES_TRY(residual(plan, x, index, a, &fa));
+    VES_TRY(residual(plan, x, index, b, &fb));
+    if ((fa > 0) == (fb > 0) && fa != 0 && fb != 0) return VES_NO_ROOT;
+    double c = a, fc = fa, step = b - a, before = step;
+    for (int k = 0; k < 100; k++) {
+        if ((fb > 0) == (fc > 0)) c = a, fc = fa, step = before = b - a;
+        if (fabs(fc) < fabs(fb)) {
+            a = b, b = c, c = a;
+            fa = fb, fb = fc, fc = fa;
+        }
+        double tolerance = 4e-16 * fabs(b), half = (c - b) / 2;
+        if (fabs(half) <= tolerance || fb == 0) break;
+        if (fabs(before) >= tolerance && fabs(fa) > fabs(fb)) {
+            double r = fb / fa, p, q;
+            if (a == c) {
+                p = 2 * half * r, q = 1 - r;
+            } else {
+                double t = fa / fc, w = fb / fc;
+                p = r * (2 * half * t * (t - w) - (b - a) * (w - 1)), q = (t - 1) * (w - 1) * (r - 1);
+            }
+            if (p > 0) q = -q;
+            p = fabs(p);
+            bool good = 2 * p < fmin(3 * half * q - fabs(tolerance * q), fabs(before * q));
+            before = good ? step : half;
+            step = good ? p / q : half;
+        } else {
+            step = before = half;
+        }
+        a = b, fa = fb;
+        b += fabs(step) > tolerance ? step : half > 0 ? tolerance : -tolerance;
+        VES_TRY(residual(plan, x, index, b, &fb));
+    }
+    *root = b;
+    return VES_OK;
+}
+
+ves_status plan_forward(ves_plan *plan, const double *x, int index, plan_program which, bool gradient)
+{
+    double unknown = 0;
+    if (plan->problem->solve) VES_TRY(solve(plan, x, index, &unknown));
+    plan_bind(plan, x, unknown);
+    return plan_run(plan, index, which, gradient);
+}

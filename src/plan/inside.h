@@ -1,0 +1,110 @@
+/* Inside of the plan. */
+#ifndef VES_PLAN_INSIDE_H
+#define VES_PLAN_INSIDE_H
+
+#include "plan/plan.h"
+#include "surface/forms.h"
+#include "surface/patch.h"
+
+enum { LEVELS = 2 };
+
+/* What is sampled for what: the measures that a program runs, and the fields and forms that each site must
+ * fill for them. */
+typedef enum plan_program {
+    PROGRAM_SCALE, /* the measure of scale:, on the shape before it is scaled */
+    PROGRAM_SOLVE, /* the measures of the equation of solve: */
+    PROGRAM_JUDGE, /* objective and constraints, validity */
+    PROGRAM_ALL,   /* every measure */
+    PROGRAMS
+} plan_program;
+
+/* One sampled place at one level: a patch's nodes, a cap, a named point, or a curve. */
+typedef struct plan_site {
+    ves_samples samples;
+    ves_adjoint adjoint;
+    ves_grid grid;
+    ves_chart *chart; /* NULL: a curve */
+    int patch;
+    int curve, curve_modes;
+    double *trig; /* curve: [e][k][nv] */
+    double side;  /* orientation of the patch */
+    bool varies;
+    unsigned needs[PROGRAMS]; /* VES_X | ... */
+    unsigned wants;           /* all of them */
+} plan_site;
+
+/* One measure at one level. */
+typedef struct plan_instance {
+    ves_measure_input input;
+    const ves_adjoint **adjoint;
+    int *site; /* [input.samples] index into the level's sites */
+} plan_instance;
+
+typedef struct plan_level {
+    int quadrature[2];
+    bool built;
+    int sites;
+    plan_site *site;         /* first one for each patch, then caps, then what keys name */
+    plan_instance *instance; /* [measures] */
+} plan_level;
+
+struct ves_plan {
+    ves_arena arena;
+    const ves_problem *problem;
+    double *block; /* the number block */
+    double *block_adjoint;
+    ves_curves *curves;
+    ves_bound bound;
+    ves_patch **patch;
+    double *side; /* [patches] +1: Xu x Xv points outward */
+    plan_level level[LEVELS];
+    bool *runs[PROGRAMS]; /* [measures] */
+    double *value;        /* [measures] */
+    double *size;         /* [constraints] the scale of each violation, fixed at the start */
+    double similarity;
+    double *formula_room;
+    double *measure_adjoint;
+    double *rows;           /* gradients: [1 + constraints + 1][slots] before the equations are followed */
+    double *row_similarity; /* [1 + constraints + 1] d/d similarity */
+    double *unit_row;       /* [slots] gradient of scale's measure */
+    ves_tile_planes *field, *field_adjoint;
+    ves_form_planes *form;
+    ves_plan_counts counts;
+};
+
+/* sites.c: sampling and its transpose */
+ves_status plan_level_build(ves_plan *plan, int index, ves_diag *diag);
+ves_status site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient);
+void site_clear(plan_site *s, unsigned needs);
+double site_scatter(ves_plan *plan, plan_site *s, unsigned needs); /* returns d J / d similarity */
+void site_gather(ves_plan *plan, plan_site *s);
+
+/* bind.c: x -> block -> curves -> patches, and back */
+void plan_bind(ves_plan *plan, const double *x, double unknown);
+void plan_bind_patches(ves_plan *plan);
+void plan_pull(ves_plan *plan, const double *number_adjoint, double *slot_row);
+
+/* forward.c: programs */
+ves_status plan_forward(ves_plan *plan, const double *x, int level, plan_program which, bool gradient);
+ves_status plan_run(ves_plan *plan, int level, plan_program which, bool gradient);
+double plan_formula(ves_plan *plan, const ves_formula *formula);
+
+/* gradient.c */
+void plan_gradient(ves_plan *plan, int level, int output, const ves_formula *const *formula,
+                   const double *seed, int count, plan_program which);
+ves_status plan_follow(ves_plan *plan, int level, int outputs);
+
+/* figure.c, after plan_forward; proof.c: does the shape of the last evaluation cross itself? */
+ves_status plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **figure);
+ves_status plan_crosses(ves_plan *plan);
+
+/* validity.c */
+ves_status plan_validity(const ves_plan *plan, int level);
+
+/* orient.c: shared curves -> sides and closedness */
+ves_status plan_orient(ves_plan *plan, ves_diag *diag);
+bool end_is_pole(const ves_plan *plan, int patch, int end);
+int end_curve(const ves_plan *plan, int patch, int end);
+bool end_is_capped(const ves_plan *plan, int patch, int end);
+
+#endif

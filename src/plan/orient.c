@@ -1,0 +1,116 @@
+/* Which patches meet, which way their normals point, and whether the shape encloses a volume.
+ *
+ * Two patches meet where they have a position condition on the same curve. Seen along that curve their
+ * normals Xu x Xv agree when one arrives there (u = 1) and the other leaves (u = 0), and disagree when both
+ * arrive or both leave. */
+#include "plan/inside.h"
+
+#include <math.h>
+
+static const ves_patch_def *def(const ves_plan *plan, int patch)
+{
+    return &plan->problem->patch[patch];
+}
+
+/* The curve that an end of a patch lies on, -1: no curve (a sheet). */
+int end_curve(const ves_plan *plan, int patch, int end)
+{
+    const ves_patch_def *p = def(plan, patch);
+    for (int k = 0; p->kind == VES_PATCH_PDE && k < p->conditions; k++)
+        if (p->condition[k].u == end && p->condition[k].derivative == 0) return p->condition[k].curve;
+    return -1;
+}
+
+bool end_is_pole(const ves_plan *plan, int patch, int end)
+{
+    int curve = end_curve(plan, patch, end);
+    return curve >= 0 && ves_curves_modes(plan->curves, curve) == 0;
+}
+
+bool end_is_capped(const ves_plan *plan, int patch, int end)
+{
+    const ves_shape_def *shape = &plan->problem->shape;
+    for (int k = 0; k < shape->caps; k++)
+        if (shape->cap[k].patch == patch && shape->cap[k].end == end) return true;
+    return false;
+}
+
+/* How many ends lie on a curve; the last one met. */
+static int ends_on(const ves_plan *plan, int curve)
+{
+    int count = 0;
+    for (int p = 0; p < plan->problem->patches; p++)
+        for (int e = 0; e < 2; e++) count += end_curve(plan, p, e) == curve;
+    return count;
+}
+
+static ves_status disagree(ves_plan *plan, int a, int b, int curve, ves_diag *diag)
+{
+    return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, def(plan, b)->mark,
+                        "patches \"%s\" and \"%s\" cannot both be oriented: through their shared curves "
+                        "(here \"%s\") each would have to "
+                        "turn the other round",
+                        def(plan, a)->name, def(plan, b)->name, plan->problem->curve[curve].name);
+}
+
+/* Spreads a sign from patch a over the curve at one of its ends. */
+static ves_status spread(ves_plan *plan, int a, int end, bool *changed, ves_diag *diag)
+{
+    int curve = end_curve(plan, a, end);
+    if (curve < 0 || end_is_pole(plan, a, end)) return VES_OK;
+    for (int b = 0; b < plan->problem->patches; b++)
+        for (int e = 0; e < 2; e++) {
+            if ((a == b && e == end) || end_curve(plan, b, e) != curve) continue;
+            double side = e == end ? -plan->side[a] : plan->side[a];
+            if (plan->side[b] == 0)
+                plan->side[b] = side, *changed = true;
+            else if (plan->side[b] != side)
+                return disagree(plan, a, b, curve, diag);
+        }
+    return VES_OK;
+}
+
+static ves_status spread_all(ves_plan *plan, ves_diag *diag)
+{
+    int patches = plan->problem->patches;
+    for (int seed = 0; seed < patches; seed++) {
+        if (plan->side[seed] != 0) continue;
+        plan->side[seed] = 1;
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (int a = 0; a < patches; a++)
+                for (int end = 0; end < 2 && plan->side[a] != 0; end++)
+                    VES_TRY(spread(plan, a, end, &changed, diag));
+        }
+    }
+    return VES_OK;
+}
+
+/* A closed shape has no free end. */
+static ves_status closed_check(const ves_plan *plan, ves_diag *diag)
+{
+    const ves_problem *p = plan->problem;
+    if (!p->shape.closed) return VES_OK;
+    for (int k = 0; k < p->patches; k++)
+        for (int end = 0; end < 2; end++) {
+            int curve = end_curve(plan, k, end);
+            bool sheet = p->patch[k].kind != VES_PATCH_PDE;
+            bool shut = sheet || end_is_pole(plan, k, end) || end_is_capped(plan, k, end) ||
+                        ends_on(plan, curve) == 2;
+            if (!shut)
+                return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
+                                    "the shape is not closed: \"%s.u%d\" is %s; let one other patch end on "
+                                    "the same curve, end "
+                                    "it in a point, or close it with caps: [%s.u%d]",
+                                    p->patch[k].name, end,
+                                    ends_on(plan, curve) > 2 ? "shared by more than two ends" : "free",
+                                    p->patch[k].name, end);
+        }
+    return VES_OK;
+}
+
+ves_status plan_orient(ves_plan *plan, ves_diag *diag)
+{
+    VES_TRY(spread_all(plan, diag));
+    return closed_check(plan, diag);
+}

@@ -1,0 +1,307 @@
+#include "plan/plan.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "plan/inside.h"
+
+/* --- what each program runs
+ * ---------------------------------------------------------------------------------------------------- */
+
+static void runs_add(ves_plan *plan, plan_program which, const ves_formula *formula)
+{
+    for (int m = 0; formula && m < plan->problem->measures; m++)
+        if (ves_formula_uses_argument(formula, m)) plan->runs[which][m] = true;
+}
+
+static ves_status runs_make(ves_plan *plan)
+{
+    const ves_problem *p = plan->problem;
+    for (int w = 0; w < PROGRAMS; w++) {
+        plan->runs[w] = ves_arena_take(&plan->arena, (size_t)p->measures, sizeof(bool));
+        if (!plan->runs[w]) return VES_MEMORY;
+    }
+    if (p->scale) plan->runs[PROGRAM_SCALE][p->scale->measure] = true;
+    if (p->solve) {
+        runs_add(plan, PROGRAM_SOLVE, p->solve->left);
+        runs_add(plan, PROGRAM_SOLVE, p->solve->right);
+    }
+    runs_add(plan, PROGRAM_JUDGE, p->objective);
+    for (int k = 0; k < p->constraints; k++) {
+        runs_add(plan, PROGRAM_JUDGE, p->constraint[k].left);
+        runs_add(plan, PROGRAM_JUDGE, p->constraint[k].right);
+    }
+    for (int m = 0; m < p->measures; m++) {
+        plan->runs[PROGRAM_JUDGE][m] |=
+            plan->runs[PROGRAM_SOLVE][m]; /* the gradient of the root needs them too */
+        plan->runs[PROGRAM_ALL][m] = true;
+    }
+    return VES_OK;
+}
+
+/* --- memory
+ * ----------------------------------------------------------------------------------------------------------------------
+ */
+
+static int formula_room(const ves_problem *p)
+{
+    int most = 0;
+#define ROOM(formula)                                                                                        \
+    do {                                                                                                     \
+        int room_ = (formula) ? ves_formula_room(formula) : 0;                                               \
+        if (room_ > most) most = room_;                                                                      \
+    } while (0)
+    for (int k = 0; k < p->parameters; k++) ROOM(p->parameter[k].formula);
+    for (int k = 0; k < p->numbers; k++) ROOM(p->number[k]);
+    for (int k = 0; k < p->constraints; k++) {
+        ROOM(p->constraint[k].left);
+        ROOM(p->constraint[k].right);
+    }
+    ROOM(p->objective);
+    if (p->solve) {
+        ROOM(p->solve->left);
+        ROOM(p->solve->right);
+    }
+    if (p->scale) ROOM(p->scale->target);
+#undef ROOM
+    return most;
+}
+
+static ves_status memory_take(ves_plan *plan)
+{
+    const ves_problem *p = plan->problem;
+    ves_arena *a = &plan->arena;
+    size_t outputs = (size_t)p->constraints + 2;
+    plan->block = ves_arena_take(a, (size_t)p->block, sizeof(double));
+    plan->block_adjoint = ves_arena_take(a, (size_t)p->block, sizeof(double));
+    plan->value = ves_arena_doubles(a, (size_t)p->measures);
+    plan->measure_adjoint = ves_arena_doubles(a, (size_t)p->measures);
+    plan->size = ves_arena_doubles(a, (size_t)p->constraints);
+    plan->formula_room = ves_arena_doubles(a, (size_t)formula_room(p));
+    plan->rows = ves_arena_doubles(a, outputs * (size_t)p->slots);
+    plan->row_similarity = ves_arena_doubles(a, outputs);
+    plan->unit_row = ves_arena_doubles(a, (size_t)p->slots);
+    plan->field = ves_arena_take(a, 1, sizeof *plan->field);
+    plan->field_adjoint = ves_arena_take(a, 1, sizeof *plan->field_adjoint);
+    plan->form = ves_arena_take(a, 1, sizeof *plan->form);
+    plan->patch = ves_arena_take(a, (size_t)p->patches, sizeof *plan->patch);
+    plan->side = ves_arena_take(a, (size_t)p->patches, sizeof *plan->side);
+    return plan->block && plan->block_adjoint && plan->value && plan->measure_adjoint && plan->size &&
+                   plan->formula_room && plan->rows && plan->row_similarity && plan->unit_row &&
+                   plan->field && plan->field_adjoint && plan->form && plan->patch && plan->side
+               ? VES_OK
+               : VES_MEMORY;
+}
+
+/* --- the start design
+ * ------------------------------------------------------------------------------------------------------------
+ */
+
+/* Fills the whole block at the start: also what never varies. */
+static void block_start(ves_plan *plan)
+{
+    const ves_problem *p = plan->problem;
+    for (int k = 0; k < p->variables; k++) plan->block[k] = p->variable[k].start;
+    if (p->solve) plan->block[p->variables] = (p->solve->lo + p->solve->hi) / 2;
+    for (int k = 0; k < p->parameters; k++)
+        plan->block[p->variables + p->unknowns + k] =
+            ves_formula_eval(p->parameter[k].formula, plan->block, NULL, plan->formula_room);
+    for (int k = 0; k < p->numbers; k++)
+        plan->block[p->slots + k] = ves_formula_eval(p->number[k], plan->block, NULL, plan->formula_room);
+}
+
+static ves_status patch_make(ves_plan *plan, int k, ves_diag *diag)
+{
+    const ves_patch_def *d = &plan->problem->patch[k];
+    ves_arena *arena = &plan->arena;
+    if (d->kind == VES_PATCH_FORMULA)
+        return ves_patch_formula(d->formula, d->u_range, d->v_range, plan->problem->slots, d->periodic,
+                                 &plan->bound, arena, &plan->patch[k]);
+    if (d->kind == VES_PATCH_POINTS)
+        return ves_patch_points(d->rows, d->columns, d->points, d->periodic, &plan->bound, arena,
+                                &plan->patch[k]);
+    ves_layout layout = {.power = d->power};
+    ves_datum datum[VES_CONDITIONS_MAX];
+    for (int j = 0; j < d->conditions; j++) {
+        const ves_condition *c = &d->condition[j];
+        layout.knot[j] = (ves_knot){.u = c->u, .derivative = c->derivative};
+        datum[j] = (ves_datum){.curve = c->curve, .from = c->from, .scale = c->scale};
+    }
+    ves_status status = ves_patch_pde(&layout, datum, d->a, d->modes, &plan->bound, arena, &plan->patch[k]);
+    if (status == VES_SINGULAR)
+        return ves_diag_add(diag, VES_ERROR, status, d->mark,
+                            "the conditions of patch \"%s\" do not determine a surface; give a position at "
+                            "one end at least, and at "
+                            "each end as many conditions as the power of the operator (%d)",
+                            d->name, d->power);
+    return status;
+}
+
+/* Outward: the volume of the start design is positive. An open shape is closed in thought by fans over its
+ * free ends. */
+static ves_status face_outward(ves_plan *plan)
+{
+    ves_figure *figure;
+    double flux = 0;
+    VES_TRY(plan_figure_make(plan, 16, 32, &figure));
+    for (int k = 0; k < figure->patches; k++) {
+        const ves_figure_patch *f = &figure->patch[k];
+        double sum = 0;
+        for (int i = 0; i < f->nu; i++)
+            for (int j = 0; j < f->nv; j++) {
+                int next = f->periodic ? (j + 1) % f->nv : j + 1,
+                    node[4] = {i * f->columns + j, (i + 1) * f->columns + j, (i + 1) * f->columns + next,
+                               i * f->columns + next};
+                for (int t = 0; t < 2; t++) {
+                    int a = node[0], b = node[1 + t], c = node[2 + t];
+                    const double *const *X = (const double *const *)f->X;
+                    sum += X[0][a] * (X[1][b] * X[2][c] - X[2][b] * X[1][c]) +
+                           X[1][a] * (X[2][b] * X[0][c] - X[0][b] * X[2][c]) +
+                           X[2][a] * (X[0][b] * X[1][c] - X[1][b] * X[0][c]);
+                }
+            }
+        flux += f->side * sum;
+        for (int end = 0; end < 2 && f->periodic;
+             end++) { /* the fan from the mean of an end that nobody shares */
+            if (f->pole[end]) continue;
+            bool shared = false;
+            for (int m = 0; m < figure->patches; m++)
+                for (int e = 0; e < 2; e++)
+                    shared = shared || ((m != k || e != end) && f->edge[end] >= 0 &&
+                                        figure->patch[m].edge[e] == f->edge[end]);
+            if (shared) continue;
+            double mean[3] = {0}, area[3] = {0};
+            int first = end ? f->nu * f->columns : 0;
+            for (int j = 0; j < f->nv; j++)
+                for (int c = 0; c < 3; c++) {
+                    int a = (c + 1) % 3, b = (c + 2) % 3, s = first + j, n = first + (j + 1) % f->nv;
+                    mean[c] += f->X[c][s] / f->nv;
+                    area[c] += f->X[a][s] * f->X[b][n] - f->X[b][s] * f->X[a][n];
+                }
+            for (int c = 0; c < 3; c++) flux += (end ? -1 : 1) * f->side * mean[c] * area[c];
+        }
+    }
+    ves_figure_destroy(figure);
+    for (int k = 0; k < plan->problem->patches && flux < 0; k++) plan->side[k] = -plan->side[k];
+    return VES_OK;
+}
+
+/* The scale of each violation: |limit|, or the size of the left side at the start, whichever is larger. */
+static void sizes_fix(ves_plan *plan)
+{
+    const ves_problem *p = plan->problem;
+    for (int k = 0; k < p->constraints; k++) {
+        double left = fabs(plan_formula(plan, p->constraint[k].left));
+        double right = fabs(plan_formula(plan, p->constraint[k].right)), size = fmax(left, right);
+        plan->size[k] = size > 0 && isfinite(size) ? size : 1;
+    }
+}
+
+static ves_status places_check(const ves_problem *p, ves_diag *diag)
+{
+    for (int k = 0; k < p->places; k++)
+        if (p->varying[p->place[k].u] || p->varying[p->place[k].v])
+            return ves_diag_add(
+                diag, VES_ERROR, VES_RANGE, p->place[k].mark,
+                "place \"%s\" would wander over its patch: its u and v cannot depend on a variable",
+                p->place[k].name);
+    return VES_OK;
+}
+
+static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_diag *diag)
+{
+    const ves_problem *p = plan->problem;
+    VES_TRY(places_check(p, diag));
+    VES_TRY(memory_take(plan));
+    plan->similarity = 1;
+    block_start(plan);
+    VES_TRY(ves_curves_create(p->curve, p->curves, p->curve_limit, plan->block, p->varying, &plan->arena,
+                              &plan->curves, diag));
+    plan->bound = (ves_bound){.number = plan->block, .varying = p->varying, .curves = plan->curves};
+    for (int k = 0; k < p->patches; k++) VES_TRY(patch_make(plan, k, diag));
+    plan_bind_patches(plan);
+    VES_TRY(plan_orient(plan, diag));
+    VES_TRY(face_outward(plan));
+    VES_TRY(runs_make(plan));
+    for (int k = 0; k < LEVELS; k++) {
+        for (int d = 0; d < 2; d++) plan->level[k].quadrature[d] = options->quadrature[d] << k;
+        VES_TRY(plan_level_build(plan, k, diag));
+    }
+    for (int m = 0; m < p->measures; m++) plan->value[m] = 0;
+    ves_status status = plan_forward(plan, plan->block, 0, PROGRAM_JUDGE, false);
+    if (status < 0) return status;
+    sizes_fix(plan);
+    return VES_OK;
+}
+
+ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *options, ves_plan **out,
+                           ves_diag *diag)
+{
+    *out = NULL;
+    ves_plan_options chosen = *options;
+    for (int d = 0; d < 2; d++)
+        if (chosen.quadrature[d] <= 0) chosen.quadrature[d] = problem->quadrature[d];
+    if (chosen.quadrature[0] <= 0 || chosen.quadrature[1] <= 0) {
+        double change;
+        VES_TRY(ves_plan_quadrature(problem, chosen.quadrature, &change, diag));
+    }
+    ves_plan *plan = ves_memory_take(sizeof *plan);
+    if (!plan) return ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "out of memory");
+    plan->problem = problem;
+    ves_status status = build(plan, &chosen, diag);
+    if (status == VES_OK) {
+        *out = plan;
+        return VES_OK;
+    }
+    if (status == VES_MEMORY) ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "out of memory");
+    ves_plan_destroy(plan);
+    return status;
+}
+
+void ves_plan_destroy(ves_plan *plan)
+{
+    if (!plan) return;
+    ves_arena_destroy(&plan->arena);
+    ves_memory_free(plan);
+}
+
+void ves_plan_grid(const ves_plan *plan, int level, int quadrature[2])
+{
+    memcpy(quadrature, plan->level[level].quadrature, sizeof plan->level[level].quadrature);
+}
+
+const double *ves_plan_slots(const ves_plan *plan)
+{
+    return plan->block;
+}
+
+double ves_plan_similarity(const ves_plan *plan)
+{
+    return plan->similarity;
+}
+
+const ves_plan_counts *ves_plan_counted(const ves_plan *plan)
+{
+    return &plan->counts;
+}
+
+ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u, const double *v,
+                           double *out)
+{
+    double *room = ves_memory_take(sizeof *room * (size_t)ves_patch_point_room(plan->patch[patch]));
+    if (!room) return VES_MEMORY;
+    ves_patch_point(plan->patch[patch], &plan->bound, count, u, v, out, room);
+    for (long k = 0; k < 3L * VES_FIELDS * count; k++) out[k] *= plan->similarity;
+    ves_memory_free(room);
+    return VES_OK;
+}
+
+ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u, double *out)
+{
+    double *room = ves_memory_take(sizeof *room * (size_t)ves_patch_point_room(plan->patch[patch]));
+    if (!room) return VES_MEMORY;
+    bool has = ves_patch_spine(plan->patch[patch], &plan->bound, count, u, out, room);
+    for (long k = 0; has && k < 9L * count; k++) out[k] *= plan->similarity;
+    ves_memory_free(room);
+    return has ? VES_OK : VES_ABSENT;
+}

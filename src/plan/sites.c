@@ -1,0 +1,486 @@
+/* Sites: where a shape is sampled, what is sampled there, and the transpose of it. */
+#include "plan/inside.h"
+
+#include <math.h>
+#include <string.h>
+
+static const unsigned FIELD_NEED[VES_FIELDS] = {VES_X, VES_XU, VES_XV, VES_XUU, VES_XUV, VES_XVV};
+
+enum { FORM_NEEDS = VES_NORMAL | VES_AREA | VES_CURVATURE, GRADIENT_ROWS = VES_TILE_ROWS / 2 };
+
+/* The fields that must be computed so that `needs` can be answered. */
+static unsigned fields_for(unsigned needs)
+{
+    unsigned fields = 0;
+    for (int f = 0; f < VES_FIELDS; f++)
+        if (needs & FIELD_NEED[f]) fields |= 1u << f;
+    if (needs & FORM_NEEDS) fields |= 1u << VES_FIELD_U | 1u << VES_FIELD_V;
+    if (needs & VES_CURVATURE) fields |= 1u << VES_FIELD_UU | 1u << VES_FIELD_UV | 1u << VES_FIELD_VV;
+    return fields;
+}
+
+/* The planes of a samples or adjoint struct for field f: they are declared in the same order. */
+static double **sample_field(ves_samples *s, int f)
+{
+    const double **const field[VES_FIELDS] = {s->X, s->Xu, s->Xv, s->Xuu, s->Xuv, s->Xvv};
+    return (double **)field[f];
+}
+
+static double **adjoint_field(ves_adjoint *a, int f)
+{
+    double **const field[VES_FIELDS] = {a->X, a->Xu, a->Xv, a->Xuu, a->Xuv, a->Xvv};
+    return field[f];
+}
+
+/* Planes start a cache line apart beyond a whole page, or all of them would share one set of the first-level
+ * cache. */
+static ves_status plane_take(ves_plan *plan, int count, bool varies, const double **value, double **adjoint)
+{
+    *value = ves_arena_doubles(&plan->arena, (size_t)count + VES_LANES);
+    *adjoint = varies ? ves_arena_doubles(&plan->arena, (size_t)count + VES_LANES) : NULL;
+    return *value && (*adjoint || !varies) ? VES_OK : VES_MEMORY;
+}
+
+static ves_status planes_take(ves_plan *plan, plan_site *s)
+{
+    for (int f = 0; f < VES_FIELDS; f++)
+        for (int c = 0; c < 3 && s->wants & FIELD_NEED[f]; c++)
+            VES_TRY(plane_take(plan, s->grid.count, s->varies,
+                               (const double **)&sample_field(&s->samples, f)[c],
+                               &adjoint_field(&s->adjoint, f)[c]));
+    for (int c = 0; c < 3 && s->wants & VES_NORMAL; c++)
+        VES_TRY(plane_take(plan, s->grid.count, s->varies, &s->samples.normal[c], &s->adjoint.normal[c]));
+    if (s->wants & VES_AREA)
+        VES_TRY(plane_take(plan, s->grid.count, s->varies, &s->samples.dA, &s->adjoint.dA));
+    if (s->wants & VES_CURVATURE) {
+        VES_TRY(plane_take(plan, s->grid.count, s->varies, &s->samples.H, &s->adjoint.H));
+        VES_TRY(plane_take(plan, s->grid.count, s->varies, &s->samples.K, &s->adjoint.K));
+    }
+    return VES_OK;
+}
+
+/* Completes a site whose kind, grid and needs are known. */
+static ves_status site_finish(ves_plan *plan, plan_site *s, ves_site kind)
+{
+    ves_samples *m = &s->samples;
+    *m = (ves_samples){.site = kind,
+                       .patch = s->patch,
+                       .nu = s->grid.nu,
+                       .nv = s->grid.nv,
+                       .count = s->grid.count,
+                       .periodic = s->grid.periodic,
+                       .u = s->grid.u,
+                       .v = s->grid.v,
+                       .weight = s->grid.weight};
+    if (s->patch >= 0) {
+        s->side = plan->side[s->patch];
+        s->varies = ves_patch_varies(plan->patch[s->patch]) || plan->problem->scale;
+        VES_TRY(
+            ves_chart_create(plan->patch[s->patch], &s->grid, fields_for(s->wants), &plan->arena, &s->chart));
+    } else {
+        s->varies = ves_curves_varies(plan->curves, s->curve) || plan->problem->scale;
+        s->curve_modes = ves_curves_modes(plan->curves, s->curve);
+        int stride = ves_curve_stride(s->curve_modes);
+        s->trig = ves_arena_doubles(&plan->arena, (size_t)(3 * stride * s->grid.nv));
+        if (!s->trig) return VES_MEMORY;
+        for (int e = 0; e < 3; e++)
+            for (int j = 0; j < s->grid.nv; j++) {
+                double *t = s->trig + (size_t)(e * stride * s->grid.nv + j);
+                t[0] = e == 0;
+                for (int n = 1; n <= s->curve_modes; n++) {
+                    double co = cos(n * s->grid.v[j]), si = sin(n * s->grid.v[j]),
+                           p = e == 0   ? 1
+                               : e == 1 ? n
+                                        : (double)n * n;
+                    t[(2 * n - 1) * s->grid.nv] = p * (e == 0 ? co : e == 1 ? -si : -co);
+                    t[2 * n * s->grid.nv] = p * (e == 0 ? si : e == 1 ? co : -si);
+                }
+            }
+    }
+    return planes_take(plan, s);
+}
+
+/* --- which sites a measure reads
+ * ------------------------------------------------------------------------------------------- */
+
+static int patches_of(const ves_problem *p, const ves_measure_def *m, int index)
+{
+    return m->over ? m->patch[index] : index < p->patches ? index : -1;
+}
+
+static bool is_reference(const ves_key *key)
+{
+    return key->kind == VES_CURVE || key->kind == VES_PLACE;
+}
+
+static int references(const ves_measure_def *m)
+{
+    int count = 0;
+    for (const ves_key *k = m->measure->keys; k && k->name; k++) count += is_reference(k);
+    return count;
+}
+
+static void need(plan_site *s, const ves_plan *plan, int measure, unsigned wanted)
+{
+    for (int p = 0; p < PROGRAMS; p++)
+        if (plan->runs[p][measure]) s->needs[p] |= wanted;
+    s->wants |= wanted;
+}
+
+/* Finds a site like `like` among the ones already there, or adds it. */
+static int site_index(plan_level *l, const plan_site *like)
+{
+    for (int k = 0; k < l->sites; k++) {
+        const plan_site *s = &l->site[k];
+        bool same =
+            s->samples.site == like->samples.site && s->patch == like->patch && s->curve == like->curve;
+        if (same && s->grid.u == like->grid.u && s->samples.side == like->samples.side) return k;
+    }
+    l->site[l->sites] = *like;
+    return l->sites++;
+}
+
+static ves_status cap_add(ves_plan *plan, plan_level *l, int k, int *index)
+{
+    const ves_end *cap = &plan->problem->shape.cap[k];
+    double side = (cap->end ? -1 : 1) * plan->side[cap->patch];
+    for (int i = 0; i < l->sites; i++) {
+        const plan_site *s = &l->site[i];
+        if (s->samples.site == VES_SITE_CAP && s->patch == cap->patch && s->grid.u[0] == cap->end) {
+            *index = i;
+            return VES_OK;
+        }
+    }
+    plan_site s = {.patch = cap->patch, .curve = -1, .samples.site = VES_SITE_CAP, .samples.side = side};
+    VES_TRY(ves_grid_ring(cap->end, l->quadrature[1], true, &plan->arena, &s.grid));
+    *index = site_index(l, &s);
+    return VES_OK;
+}
+
+static ves_status reference_add(ves_plan *plan, plan_level *l, const ves_arg *arg, int *index)
+{
+    plan_site s = {.patch = -1, .curve = -1};
+    if (arg->place) {
+        const ves_place *place = &plan->problem->place[arg->ref[0]];
+        s.samples.site = VES_SITE_PLACE;
+        s.patch = place->patch;
+        VES_TRY(ves_grid_given(1, &plan->block[place->u], 1, &plan->block[place->v], false, &plan->arena,
+                               &s.grid));
+    } else {
+        s.samples.site = VES_SITE_CURVE;
+        s.curve = arg->ref[0];
+        VES_TRY(ves_grid_ring(0, 2 * l->quadrature[1], true, &plan->arena, &s.grid));
+    }
+    *index = site_index(l, &s);
+    return VES_OK;
+}
+
+static ves_status instance_build(ves_plan *plan, plan_level *l, int m)
+{
+    const ves_problem *p = plan->problem;
+    const ves_measure_def *def = &p->measure[m];
+    const ves_measure *measure = def->measure;
+    plan_instance *in = &l->instance[m];
+    int surfaces = !measure->surface ? 0 : def->over ? def->over : p->patches;
+    int caps = measure->cap ? p->shape.caps : 0, refs = references(def), count = surfaces + caps + refs,
+        at = 0;
+    in->site = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->site);
+    if (!in->site) return VES_MEMORY;
+    for (int k = 0; k < surfaces; k++) {
+        in->site[at] = patches_of(p, def, k);
+        need(&l->site[in->site[at++]], plan, m, measure->surface);
+    }
+    for (int k = 0; k < caps; k++) {
+        VES_TRY(cap_add(plan, l, k, &in->site[at]));
+        need(&l->site[in->site[at++]], plan, m, measure->cap);
+    }
+    for (int k = 0; refs && measure->keys[k].name; k++) {
+        if (!is_reference(&measure->keys[k])) continue;
+        VES_TRY(reference_add(plan, l, &def->args.arg[k], &in->site[at]));
+        need(&l->site[in->site[at++]], plan, m, measure->curve);
+    }
+    in->input.samples = count;
+    return VES_OK;
+}
+
+static ves_status instance_finish(ves_plan *plan, plan_level *l, int m)
+{
+    plan_instance *in = &l->instance[m];
+    const ves_measure_def *def = &plan->problem->measure[m];
+    int count = in->input.samples;
+    const ves_samples **sample = ves_arena_take(&plan->arena, (size_t)count, sizeof *sample);
+    in->adjoint = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->adjoint);
+    if (!sample || !in->adjoint) return VES_MEMORY;
+    for (int k = 0; k < count; k++) {
+        sample[k] = &l->site[in->site[k]].samples;
+        in->adjoint[k] = &l->site[in->site[k]].adjoint;
+    }
+    in->input.sample = sample;
+    in->input.args = &def->args;
+    in->input.number = plan->block;
+    size_t room = def->measure->room ? def->measure->room(&in->input) : 0;
+    in->input.room = ves_arena_doubles(&plan->arena, room);
+    return in->input.room ? VES_OK : VES_MEMORY;
+}
+
+/* What validity looks at, in the programs that judge. */
+static void validity_needs(const ves_problem *p, plan_level *l)
+{
+    unsigned all =
+        (p->validity.jacobian ? VES_NORMAL : 0) | (p->shape.closed ? VES_X | VES_NORMAL | VES_AREA : 0);
+    for (int k = 0; k < p->patches; k++) {
+        unsigned wanted = all;
+        if (p->validity.least_radius >= 0) wanted |= VES_X;
+        if (p->validity.monotone >= 0) wanted |= VES_XU;
+        l->site[k].needs[PROGRAM_JUDGE] |= wanted;
+        l->site[k].needs[PROGRAM_ALL] |= wanted;
+        l->site[k].wants |= wanted;
+    }
+}
+
+ves_status plan_level_build(ves_plan *plan, int index, ves_diag *diag)
+{
+    (void)diag;
+    const ves_problem *p = plan->problem;
+    plan_level *l = &plan->level[index];
+    int most = p->patches + p->shape.caps;
+    for (int m = 0; m < p->measures; m++) most += references(&p->measure[m]);
+    l->site = ves_arena_take(&plan->arena, (size_t)most, sizeof *l->site);
+    l->instance = ves_arena_take(&plan->arena, (size_t)p->measures, sizeof *l->instance);
+    if (!l->site || !l->instance) return VES_MEMORY;
+    l->sites = p->patches;
+    for (int k = 0; k < p->patches; k++) {
+        plan_site *s = &l->site[k];
+        s->patch = k, s->curve = -1, s->samples.site = VES_SITE_SURFACE;
+        VES_TRY(ves_grid_quadrature(l->quadrature[0], l->quadrature[1], ves_patch_periodic(plan->patch[k]),
+                                    &plan->arena, &s->grid));
+    }
+    for (int m = 0; m < p->measures; m++) VES_TRY(instance_build(plan, l, m));
+    validity_needs(p, l);
+    for (int k = 0; k < l->sites; k++) {
+        double side = l->site[k].samples.side;
+        VES_TRY(site_finish(plan, &l->site[k], l->site[k].samples.site));
+        l->site[k].samples.side = side;
+    }
+    for (int m = 0; m < p->measures; m++) VES_TRY(instance_finish(plan, l, m));
+    l->built = true;
+    return VES_OK;
+}
+
+/* --- sampling
+ * ----------------------------------------------------------------------------------------------------------------
+ */
+
+static void curve_sample(ves_plan *plan, plan_site *s, unsigned needs)
+{
+    static const int FIELD[3] = {VES_FIELD_X, VES_FIELD_V, VES_FIELD_VV};
+    int stride = ves_curve_stride(s->curve_modes), nv = s->grid.nv;
+    const double *coef = ves_curves_coef(plan->curves, s->curve);
+    for (int e = 0; e < 3; e++)
+        for (int c = 0; c < 3 && needs & FIELD_NEED[FIELD[e]]; c++) {
+            double *out = sample_field(&s->samples, FIELD[e])[c];
+            memset(out, 0, sizeof *out * (size_t)nv);
+            for (int k = 0; k < stride; k++) {
+                const double *t = s->trig + (size_t)((e * stride + k) * nv);
+                double f = plan->similarity * coef[c * stride + k];
+                for (int j = 0; j < nv; j++) out[j] += f * t[j];
+            }
+        }
+}
+
+/* A plane of a tile into the plane of the grid; factor: for dA the weights (or NULL). */
+static void tile_store(const plan_site *s, const ves_tile *tile, const double *from, const double *factor,
+                       double *to)
+{
+    int nu = s->grid.nu;
+    if (tile->lanes < VES_LANES || factor) {
+        for (int r = 0; r < tile->rows; r++) {
+            size_t at = (size_t)(tile->row[r] * nu + tile->block);
+            for (int i = 0; i < tile->lanes; i++)
+                to[at + (size_t)i] = from[r * VES_LANES + i] * (factor ? factor[at + (size_t)i] : 1);
+        }
+        return;
+    }
+    for (int r = 0; r < tile->rows; r++)
+        memcpy(to + tile->row[r] * nu + tile->block, from + r * VES_LANES, VES_LANES * sizeof *to);
+}
+
+static void tile_scale(const ves_tile *tile, double similarity, ves_tile_planes *field)
+{
+    for (int f = 0; f < VES_FIELDS; f++)
+        for (int c = 0; c < 3 && tile->fields & 1u << f; c++)
+            for (int k = 0; k < tile->rows * VES_LANES; k++) field->at[f * 3 + c][k] *= similarity;
+}
+
+static void forms_store(const plan_site *s, const ves_tile *tile, unsigned needs, const ves_form_planes *form)
+{
+    for (int c = 0; c < 3 && needs & VES_NORMAL; c++)
+        tile_store(s, tile, form->at[VES_FORM_NX + c], NULL, (double *)s->samples.normal[c]);
+    if (needs & VES_AREA) tile_store(s, tile, form->at[VES_FORM_J], s->grid.weight, (double *)s->samples.dA);
+    if (needs & VES_CURVATURE) {
+        tile_store(s, tile, form->at[VES_FORM_H], NULL, (double *)s->samples.H);
+        tile_store(s, tile, form->at[VES_FORM_K], NULL, (double *)s->samples.K);
+    }
+}
+
+/* Below this ratio of |Xu x Xv|^2 to (|Xu|^2 + |Xv|^2)^2 rounding decides the direction of the normal. */
+static const double FLAT = 1e-24;
+
+ves_status site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient)
+{
+    if (!needs) return VES_OK;
+    if (!s->chart) {
+        curve_sample(plan, s, needs);
+        return VES_OK;
+    }
+    ves_chart_prepare(s->chart, &plan->bound, gradient);
+    double least = HUGE_VAL;
+    int tiles = ves_tile_count(&s->grid, VES_TILE_ROWS);
+    for (int k = 0; k < tiles; k++) {
+        ves_tile tile;
+        ves_tile_at(&s->grid, VES_TILE_ROWS, k, fields_for(needs), &tile);
+        ves_chart_sample(s->chart, &tile, plan->field);
+        if (plan->similarity != 1) tile_scale(&tile, plan->similarity, plan->field);
+        for (int f = 0; f < VES_FIELDS; f++)
+            for (int c = 0; c < 3 && needs & FIELD_NEED[f]; c++)
+                tile_store(s, &tile, plan->field->at[f * 3 + c], NULL, sample_field(&s->samples, f)[c]);
+        if (needs & FORM_NEEDS) {
+            double ratio = ves_forms_eval(&tile, plan->field, s->side, plan->form);
+            least = ratio < least || isnan(ratio) ? ratio : least;
+            forms_store(s, &tile, needs, plan->form);
+        }
+    }
+    return least > FLAT ? VES_OK : VES_DEGENERATE;
+}
+
+/* --- the transpose
+ * -----------------------------------------------------------------------------------------------------------
+ */
+
+static void plane_clear(double *plane, int count)
+{
+    if (plane) memset(plane, 0, sizeof *plane * (size_t)count);
+}
+
+void site_clear(plan_site *s, unsigned needs)
+{
+    int count = s->grid.count;
+    for (int f = 0; f < VES_FIELDS; f++)
+        for (int c = 0; c < 3 && needs & FIELD_NEED[f]; c++)
+            plane_clear(adjoint_field(&s->adjoint, f)[c], count);
+    for (int c = 0; c < 3 && needs & VES_NORMAL; c++) plane_clear(s->adjoint.normal[c], count);
+    if (needs & VES_AREA) plane_clear(s->adjoint.dA, count);
+    if (needs & VES_CURVATURE) plane_clear(s->adjoint.H, count), plane_clear(s->adjoint.K, count);
+}
+
+/* The plane of a grid into a tile; lanes beyond the grid are zero. */
+static void tile_load(const plan_site *s, const ves_tile *tile, const double *from, const double *factor,
+                      double *to)
+{
+    int nu = s->grid.nu;
+    for (int r = 0; r < tile->rows; r++) {
+        size_t at = (size_t)(tile->row[r] * nu + tile->block);
+        for (int i = 0; i < VES_LANES; i++)
+            to[r * VES_LANES + i] =
+                i < tile->lanes ? from[at + (size_t)i] * (factor ? factor[at + (size_t)i] : 1) : 0;
+    }
+}
+
+static void plane_zero(const ves_tile *tile, double *to)
+{
+    memset(to, 0, sizeof *to * (size_t)(tile->rows * VES_LANES));
+}
+
+static void adjoint_load(const plan_site *s, const ves_tile *tile, unsigned needs, ves_tile_planes *field,
+                         ves_form_planes *form)
+{
+    for (int f = 0; f < VES_FIELDS; f++)
+        for (int c = 0; c < 3 && tile->fields & 1u << f; c++) {
+            if (needs & FIELD_NEED[f])
+                tile_load(s, tile, adjoint_field((ves_adjoint *)&s->adjoint, f)[c], NULL,
+                          field->at[f * 3 + c]);
+            else
+                plane_zero(tile, field->at[f * 3 + c]);
+        }
+    for (int c = 0; c < 3; c++) {
+        if (needs & VES_NORMAL)
+            tile_load(s, tile, s->adjoint.normal[c], NULL, form->at[VES_FORM_NX + c]);
+        else
+            plane_zero(tile, form->at[VES_FORM_NX + c]);
+    }
+    if (needs & VES_AREA)
+        tile_load(s, tile, s->adjoint.dA, s->grid.weight, form->at[VES_FORM_J]);
+    else
+        plane_zero(tile, form->at[VES_FORM_J]);
+    if (needs & VES_CURVATURE) {
+        tile_load(s, tile, s->adjoint.H, NULL, form->at[VES_FORM_H]);
+        tile_load(s, tile, s->adjoint.K, NULL, form->at[VES_FORM_K]);
+    } else {
+        plane_zero(tile, form->at[VES_FORM_H]), plane_zero(tile, form->at[VES_FORM_K]);
+    }
+}
+
+/* X = similarity X0: the adjoint of X0 is similarity times that of X, and d J / d similarity their inner
+ * product with X0. */
+static double tile_unscale(const ves_tile *tile, double similarity, const ves_tile_planes *field,
+                           ves_tile_planes *adjoint)
+{
+    double sum = 0;
+    for (int f = 0; f < VES_FIELDS; f++)
+        for (int c = 0; c < 3 && tile->fields & 1u << f; c++) {
+            const double *x = field->at[f * 3 + c];
+            double *g = adjoint->at[f * 3 + c];
+            for (int k = 0; k < tile->rows * VES_LANES; k++) {
+                sum += g[k] * x[k] / similarity;
+                g[k] *= similarity;
+            }
+        }
+    return sum;
+}
+
+static double curve_scatter(ves_plan *plan, plan_site *s, unsigned needs)
+{
+    static const int FIELD[3] = {VES_FIELD_X, VES_FIELD_V, VES_FIELD_VV};
+    int stride = ves_curve_stride(s->curve_modes), nv = s->grid.nv;
+    double *to = ves_curves_adjoint(plan->curves, s->curve), by_similarity = 0;
+    const double *coef = ves_curves_coef(plan->curves, s->curve);
+    for (int e = 0; e < 3; e++)
+        for (int c = 0; c < 3 && needs & FIELD_NEED[FIELD[e]]; c++) {
+            const double *g = adjoint_field(&s->adjoint, FIELD[e])[c];
+            for (int k = 0; k < stride; k++) {
+                const double *t = s->trig + (size_t)((e * stride + k) * nv);
+                double sum = 0;
+                for (int j = 0; j < nv; j++) sum += g[j] * t[j];
+                if (to) to[c * stride + k] += plan->similarity * sum;
+                by_similarity += coef[c * stride + k] * sum;
+            }
+        }
+    return by_similarity;
+}
+
+double site_scatter(ves_plan *plan, plan_site *s, unsigned needs)
+{
+    if (!needs || !s->varies) return 0;
+    if (!s->chart) return curve_scatter(plan, s, needs);
+    ves_chart_prepare(s->chart, &plan->bound, true);
+    double by_similarity = 0;
+    bool scaled = plan->problem->scale;
+    int tiles = ves_tile_count(&s->grid, GRADIENT_ROWS);
+    for (int k = 0; k < tiles; k++) {
+        ves_tile tile;
+        ves_tile_at(&s->grid, GRADIENT_ROWS, k, fields_for(needs), &tile);
+        ves_chart_sample(s->chart, &tile, plan->field);
+        if (plan->similarity != 1) tile_scale(&tile, plan->similarity, plan->field);
+        adjoint_load(s, &tile, needs, plan->field_adjoint, plan->form);
+        if (needs & FORM_NEEDS)
+            ves_forms_gradient(&tile, plan->field, s->side, plan->form, plan->field_adjoint);
+        if (scaled) by_similarity += tile_unscale(&tile, plan->similarity, plan->field, plan->field_adjoint);
+        ves_chart_scatter(s->chart, &tile, plan->field_adjoint);
+    }
+    return by_similarity;
+}
+
+void site_gather(ves_plan *plan, plan_site *s)
+{
+    if (s->chart && s->varies) ves_chart_gather(s->chart, &plan->bound, plan->block_adjoint);
+}

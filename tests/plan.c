@@ -1,0 +1,284 @@
+/* The plan through problem texts: exact gradients with respect to every kind of number that a file can hold,
+ * elimination by solve: and scale:, verdicts, and no allocation in the loop. */
+#include <criterion/criterion.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "plan/plan.h"
+
+typedef struct bed {
+    ves_problem *problem;
+    ves_plan *plan;
+    ves_diag *diag;
+} bed;
+
+static void complain(const bed *b)
+{
+    char text[2000];
+    for (int k = 0; k < ves_diag_count(b->diag); k++) {
+        ves_diag_text(b->diag, k, text, sizeof text);
+        cr_log_error("%s", text);
+    }
+}
+
+static bed bed_make(const char *text)
+{
+    bed b = {.diag = ves_diag_create()};
+    ves_read_options options = {0};
+    ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), &options, &b.problem, b.diag);
+    if (status == VES_OK) status = ves_plan_create(b.problem, &(ves_plan_options){{0, 0}}, &b.plan, b.diag);
+    if (status != VES_OK) complain(&b);
+    cr_assert_eq(status, VES_OK, "%s", ves_status_text(status));
+    return b;
+}
+
+static void bed_clear(bed *b)
+{
+    ves_plan_destroy(b->plan);
+    ves_problem_destroy(b->problem);
+    ves_diag_destroy(b->diag);
+}
+
+/* A tube whose every number hangs on a variable through `q`; %s: curves, then the rest. */
+#define TUBE(curves, rest)                                                                                   \
+    "vesica: 1\n"                                                                                            \
+    "quadrature: {u: 16, v: 32}\n"                                                                           \
+    "variables: {q: [-2, 0.37, 2], w: [0.1, 0.83, 3]}\n"                                                     \
+    "parameters: {half: q/2, both: half + w}\n"                                                              \
+    "curves:\n"                                                                                              \
+    "  low: {circle: {radius: 1.1 + 0.1*w}}\n"                                                               \
+    "  up: {formula: [\"0.1*cos(v)\", \"0.2*sin(v)\", \"1.4\"]}\n" curves "patches:\n"                       \
+    "  wall:\n"                                                                                              \
+    "    operator: {power: 2, a: 0.9}\n"                                                                     \
+    "    conditions: [{u: 0, position: low}, {u: 0, derivative: 1, field: up}, {u: 1, position: high}, {u: " \
+    "1, derivative: 1, field: up}]\n" rest
+
+#define GOAL "minimize: bending + 0.3*area*both - 0.2*mean_curvature + 0.1*gauss_curvature + willmore*q\n"
+
+static const char *const CASE[] = {
+    TUBE("  high: {circle: {radius: 0.9 + 0.2*q, centre: [0.1*q, q*w, 2.1 - half], axis: [0.1*q, 0.2*w, "
+         "1]}}\n",
+         GOAL),
+    TUBE("  high: {ellipse: {radii: [0.9 + 0.2*q, 0.7 + 0.1*both], centre: [0.1*q, 0, 2.1 - half], axis: "
+         "[0.1*q, 0.2, 1]}}\n",
+         GOAL),
+    TUBE("  high: {fourier: {mean: [0.1, q/5, 2], cos: [[1, 0.1*q, 0], [0.1*q, 0, 0.1*w]], sin: [[0, 1, "
+         "0.1], [0, 0.07*q, 0.1*q]]}}\n",
+         GOAL),
+    TUBE("  high: {bspline: {points: [[1.2 + 0.1*q, 0, 2], [0, 1.1, 2 + 0.1*q], [-1 - 0.1*w, 0, 2], [0, "
+         "-1.2, 2 + 0.2*q*w]]}}\n",
+         GOAL),
+    TUBE("  high: {bspline: {interpolate: true, points: [[1 + 0.1*q, 0, 2], [0, 1.1, 2], [-1, 0, 2 + 0.1*q], "
+         "[0, -1.2, 2 + 0.2*q*w]]}}\n",
+         GOAL),
+    TUBE("  high: {points: {points: [[1 + 0.1*q, 0, 2], [0, 1.1, 2], [-1, 0, 2 + 0.1*q], [0, -1.2, 2 + "
+         "0.2*q*w], [0.7, -0.8, 2]]}}\n",
+         GOAL),
+    TUBE("  high: {formula: [\"(1 + 0.1*q)*cos(v) + 0.05*cos(3*v + w)\", \"(1 - 0.1*q)*sin(v)\", \"2 + "
+         "0.1*sin(q*w)\"]}\n",
+         GOAL),
+    TUBE(
+        "  high: {combine: [[1 + 0.1*q, low], [0.3*w, up], [1, shelf]]}\n  shelf: {point: [0, 0.1*q, 1.6]}\n",
+        GOAL),
+    TUBE("  high: {like: low, apply: [{translate: [0.1*q, 0.2*w*q, 2]}]}\n", GOAL),
+    TUBE("  high: {like: low, apply: [{rotate: [0.3*q, 0.2*w, q]}, {translate: [0, 0, 2]}]}\n", GOAL),
+    TUBE("  high: {like: low, apply: [{translate: [0.3, 0, 2]}, {rotate: {by: [0.3*q, 0.2*w, q], about: "
+         "centre}}]}\n",
+         GOAL),
+    TUBE("  high: {like: low, apply: [{dilate: [1 + 0.1*q, 1 - 0.1*w, 1]}, {translate: [0, 0, 2]}, {dilate: "
+         "1 + 0.1*half}]}\n",
+         GOAL),
+    TUBE("  high: {circle: {radius: 1}, apply: [{ridge: {points: 8, by: 0.1*q, along: radial}}, {translate: "
+         "[0, 0, 2]}]}\n",
+         GOAL),
+    TUBE("  high: {ellipse: {radii: [1, 0.8]}, apply: [{shift: 0.5*q + 0.1*w}, {translate: [0, 0, 2]}]}\n",
+         GOAL),
+    TUBE("  high: {circle: {radius: 1}, apply: [{bump: {from: 0.2 + 0.1*q, to: 2.1 - 0.1*w, by: [0.2*q, 0.1, "
+         "0.1*w]}}, {translate: [0, 0, 2]}]}\n",
+         GOAL),
+};
+
+static const char *const WHOLE[] = {
+    /* a and the scale of a condition; constraints of all three kinds; a derived parameter in a limit */
+    "vesica: 1\nquadrature: {u: 16, v: 32}\nvariables: {a: [0.1, 1.7, 5], s: [0.1, 1.9, 3], r: [0.5, 1.2, "
+    "2]}\nparameters: {lid: 4*pi*r^2}\n"
+    "curves: {p: {circle: {radius: r}}, q: {like: p, apply: [{translate: [0, 0, 2]}]}, d: {circle: {radius: "
+    "1.3*r}, apply: [{translate: [0.1, 0, 0.9]}]}}\n"
+    "patches: {wall: {operator: {power: 2, a: a}, conditions: [{u: 0, position: p}, {u: 1, position: q}, {u: "
+    "0, derivative: 1, from: p, to: d, "
+    "scale: s}, {u: 1, derivative: 1, from: d, to: q, scale: 2*s}]}}\n"
+    "minimize: bending*(1 + 0.1*area)\nconstraints: [area <= lid, willmore >= 0.2*s, mean_curvature == 6]\n",
+    /* the remainder: a spline of a band limit far above the modes solved */
+    "vesica: 1\nquadrature: {u: 16, v: 64}\nvariables: {a: [0.1, 0.8, 5], x: [-1, 0.2, 1]}\n"
+    "curves: {p: {bspline: {points: [[1 + x, 0, 0], [0, 1, 0], [-1, 0, 0.1*x], [0, -1.4, 0]]}}, q: {like: p, "
+    "apply: [{translate: [0, 0, 2]}]}, up: {point: [0, 0.1*x, 1]}}\n"
+    "patches: {wall: {operator: {power: 2, a: a}, modes: 5, conditions: [{u: 0, position: p}, {u: 1, "
+    "position: q}, {u: 0, derivative: 1, field: up}, "
+    "{u: 1, derivative: 1, field: up}]}}\nminimize: bending + area\n",
+    /* closed, capped, volume, power 1; scale and solve together */
+    "vesica: 1\nquadrature: {u: 16, v: 32}\nvariables: {r: [0.5, 1.2, 2], t: [-1, 0.2, 1]}\nsolve: {unknown: "
+    "h, in: [0.5, 6], equation: volume == 3 + t}\n"
+    "curves: {p: {circle: {radius: 1}}, q: {circle: {radius: r, centre: [t, 0, h]}}}\n"
+    "patches: {wall: {operator: {power: 1, a: 1.3}, conditions: [{u: 0, position: p}, {u: 1, position: "
+    "q}]}}\n"
+    "shape: {closed: true, caps: [wall.u0, wall.u1]}\nminimize: area + 0.1*h + bending\nconstraints: [area "
+    "<= 9 + t]\n",
+    "vesica: 1\nquadrature: {u: 16, v: 32}\nvariables: {r: [0.5, 1.2, 2], t: [-1, 0.2, 1]}\nscale: "
+    "{equation: area == 4*pi + t}\n"
+    "curves: {p: {circle: {radius: 1}}, q: {circle: {radius: r, centre: [t, 0.1, 1.5]}}}\n"
+    "patches: {wall: {operator: {power: 1, a: 1.3}, conditions: [{u: 0, position: p}, {u: 1, position: "
+    "q}]}}\n"
+    "shape: {closed: true, caps: [wall.u0, wall.u1]}\nminimize: mean_curvature - volume\nconstraints: "
+    "[volume == 3, bending <= 20*r]\n",
+    "vesica: 1\nquadrature: {u: 16, v: 32}\nvariables: {r: [0.5, 1.2, 2], t: [-1, 0.2, 1]}\nscale: "
+    "{equation: area == 4*pi + t}\n"
+    "solve: {unknown: h, in: [0.5, 9], equation: volume == 3.2 + 0.1*t}\n"
+    "curves: {p: {circle: {radius: 1}}, q: {circle: {radius: r, centre: [t, 0.1, h]}}}\n"
+    "patches: {wall: {operator: {power: 1, a: 1.3}, conditions: [{u: 0, position: p}, {u: 1, position: "
+    "q}]}}\n"
+    "shape: {closed: true, caps: [wall.u0, wall.u1]}\nminimize: mean_curvature + bending*h\n",
+    /* sheets: a formula and points */
+    "vesica: 1\nquadrature: {u: 16, v: 16}\nvariables: {k: [0.5, 1.2, 2], t: [-1, 0.2, 1]}\n"
+    "patches: {roof: {surface: {formula: [\"k*u\", \"v\", \"t*u*v + 0.3*sin(k*u)*cos(v)\"]}, periodic: "
+    "false}}\nminimize: bending + area\n",
+    "vesica: 1\nquadrature: {u: 16, v: 16}\nvariables: {k: [0.5, 1.2, 2], t: [-1, 0.2, 1]}\n"
+    "patches: {roof: {surface: {points: [[[0, 0, 0], [1, 0, t], [2, 0, 0], [3, 0, 0]], [[0, 1, 0.2], [1, 1, "
+    "k], [2, 1, 0.1], [3.1, 1, 0]], "
+    "[[0, 2, 0], [1, 2, 0.3*k], [2, 2, t], [3, 2, 0]], [[0, 3, 0], [1, 3, 0], [2, 3, 0.2], [3, 3, k*t]]]}, "
+    "periodic: false}}\nminimize: bending + area\n",
+    /* pointwise formulas, extents, distances, places and centroids */
+    "vesica: 1\nquadrature: {u: 16, v: 32}\nvariables: {r: [0.5, 1.2, 2], t: [-1, 0.2, 1]}\n"
+    "curves: {p: {circle: {radius: 1}}, q: {ellipse: {radii: [r, 0.9], centre: [t, 0.1, 1.5]}}, far: {point: "
+    "[3 + t, 1, 0]}}\n"
+    "patches: {wall: {operator: {power: 1, a: 1.3}, conditions: [{u: 0, position: p}, {u: 1, position: "
+    "q}]}}\n"
+    "places: {tip: {patch: wall, u: 0.4, v: 1.1}}\n"
+    "measures: {I: {integral: {of: \"H^2 + t*x*z + 0.1*k1 + K*y\"}}, d: {distance: {from: tip, to: far}}, e: "
+    "{distance: {from: q, to: far}}, m: {max_curvature: {smooth: 8}}, "
+    "c: {centroid: {of: surface, along: [1, 0.2, t]}}}\nminimize: I + d + e*r + 0.1*m + c\n",
+};
+
+enum { CASES = sizeof CASE / sizeof *CASE, WHOLES = sizeof WHOLE / sizeof *WHOLE, N = 8, M = 8 };
+
+static void judge(const bed *b, const double *x, unsigned want, ves_verdict *verdict)
+{
+    ves_ask ask = {.x = x, .level = 0, .cutoff = HUGE_VAL, .want = want};
+    cr_assert_eq(ves_plan_evaluate(b->plan, &ask, verdict), VES_OK);
+    cr_assert_eq(verdict->status, VES_OK, "%s", ves_status_text(verdict->status));
+}
+
+/* Fourth-order central differences: truncation about h^4 = 1e-12 times a fifth derivative, rounding 1e-13 / h
+ * of the value: 1e-7 of the largest entry covers both with a margin; the bar of the project is 1e-6. */
+static void gradient_check(const char *text)
+{
+    bed b = bed_make(text);
+    int n = b.problem->variables, m = b.problem->constraints;
+    double x[N], g[N], jacobian[M * N], c[M], side[4], sides[M][4], scratch[M];
+    for (int k = 0; k < n; k++) x[k] = b.problem->variable[k].start;
+    ves_verdict verdict = {.constraint = c, .gradient = g, .jacobian = jacobian},
+                other = {.constraint = scratch};
+    judge(&b, x, VES_WANT_GRADIENT, &verdict);
+    double value = verdict.value;
+    for (int k = 0; k < n; k++) {
+        static const double at[4] = {-2, -1, 1, 2}, w[4] = {1, -8, 8, -1};
+        double h = 1e-3 * (b.problem->variable[k].max - b.problem->variable[k].min) / 4, keep = x[k],
+               want = 0, wants[M] = {0};
+        for (int s = 0; s < 4; s++) {
+            x[k] = keep + at[s] * h;
+            judge(&b, x, VES_WANT_VALUE, &other);
+            side[s] = other.value;
+            want += w[s] * side[s] / (12 * h);
+            for (int i = 0; i < m; i++) sides[i][s] = scratch[i], wants[i] += w[s] * sides[i][s] / (12 * h);
+        }
+        x[k] = keep;
+        double unit = 1 + fabs(want) + fabs(value);
+        cr_expect(fabs(g[k] - want) <= 1e-7 * unit, "%s: d/d%s: got %.12g, differences %.12g\n%s",
+                  "objective", b.problem->variable[k].name, g[k], want, text);
+        for (int i = 0; i < m; i++)
+            cr_expect(fabs(jacobian[i * n + k] - wants[i]) <= 1e-7 * (1 + fabs(wants[i])),
+                      "constraint %d: d/d%s: got %.12g, differences %.12g\n%s", i,
+                      b.problem->variable[k].name, jacobian[i * n + k], wants[i], text);
+    }
+    bed_clear(&b);
+}
+
+Test(plan, gradients_agree_with_differences_for_every_curve_and_move)
+{
+    for (int k = 0; k < CASES; k++) gradient_check(CASE[k]);
+}
+
+Test(plan, gradients_agree_with_differences_for_whole_problems)
+{
+    for (int k = 0; k < WHOLES; k++) gradient_check(WHOLE[k]);
+}
+
+static double measured(const bed *b, const char *name, const double *x)
+{
+    double value[32];
+    cr_assert_eq(ves_plan_measure(b->plan, x, 0, value), VES_OK);
+    for (int k = 0; k < b->problem->measures; k++)
+        if (!strcmp(b->problem->measure[k].name, name)) return value[k];
+    cr_assert_fail("no measure %s", name);
+    return NAN;
+}
+
+/* Exact elimination: the equation holds to rounding (1e-12 of the value) at any x. */
+Test(plan, solve_and_scale_meet_their_equations)
+{
+    bed b = bed_make(WHOLE[4]);
+    for (double t = -0.5; t < 0.6; t += 0.173) {
+        double x[2] = {1.31, t};
+        cr_expect(fabs(measured(&b, "area", x) - (12.566370614359172 + t)) < 1e-11);
+        cr_expect(fabs(measured(&b, "volume", x) - (3.2 + 0.1 * t)) < 1e-11, "volume %.15g",
+                  measured(&b, "volume", x));
+    }
+    bed_clear(&b);
+    b = bed_make(WHOLE[2]);
+    double x[2] = {1.31, 0.4};
+    cr_expect(fabs(measured(&b, "volume", x) - 3.4) < 1e-12);
+    bed_clear(&b);
+}
+
+Test(plan, an_equation_without_a_root_is_a_verdict)
+{
+    bed b = bed_make(
+        "vesica: 1\nvariables: {r: [0.1, 1, 2]}\nsolve: {unknown: h, in: [0.5, 2], equation: volume == 3}\n"
+        "curves: {p: {circle: {radius: r}}, q: {like: p, apply: [{translate: [0, 0, h]}]}}\n"
+        "patches: {wall: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: p}, {u: 1, position: "
+        "q}]}}\n"
+        "shape: {closed: true, caps: [wall.u0, wall.u1]}\nminimize: area\n");
+    double x = 0.2;
+    ves_verdict verdict = {0};
+    ves_ask ask = {.x = &x, .cutoff = HUGE_VAL};
+    cr_assert_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_OK);
+    cr_expect_eq(verdict.status, VES_NO_ROOT);
+    cr_expect_eq(verdict.violation, HUGE_VAL);
+    x = 1;
+    cr_assert_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_OK);
+    cr_expect_eq(verdict.status, VES_OK);
+    cr_expect(fabs(verdict.value - 6) < 1e-12, "2 pi h with h = 3/pi: got %.15g", verdict.value);
+    bed_clear(&b);
+}
+
+/* A wall that runs out, back and out again: somewhere its normal turns over. */
+Test(plan, a_fold_is_a_verdict)
+{
+    bed b = bed_make("vesica: 1\nvariables: {m: [-9, 1, 9]}\nquadrature: {u: 32, v: 16}\n"
+                     "curves: {p: {circle: {radius: 1}}, q: {circle: {radius: 2}}, out: {formula: "
+                     "[\"cos(v)\", \"sin(v)\", \"0\"]}}\n"
+                     "patches: {ring: {operator: {power: 2, a: 0.2}, conditions: [{u: 0, position: p}, {u: "
+                     "1, position: q}, {u: 0, derivative: 1, field: out, scale: m}, "
+                     "{u: 1, derivative: 1, field: out, scale: 1}]}}\nminimize: area\n");
+    double x = -6;
+    ves_verdict verdict = {0};
+    ves_ask ask = {.x = &x, .cutoff = HUGE_VAL};
+    cr_assert_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_OK);
+    cr_expect_eq(verdict.status, VES_FOLDED);
+    x = 1;
+    cr_assert_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_OK);
+    cr_expect_eq(verdict.status, VES_OK);
+    cr_expect(fabs(verdict.value - 3 * 3.141592653589793) < 1e-9, "ring of area 3 pi: %.15g", verdict.value);
+    bed_clear(&b);
+}
