@@ -151,7 +151,7 @@ Test(schema, the_reference_chapter_is_what_the_program_writes)
     size_t at = 0;
     while (at < size && got[at] == want[at]) at++;
     cr_expect(length == size && at == size,
-              "docs/reference.md differs at byte %zu: write it anew (vesica explain reference)\n%.80s", at,
+              "docs/reference.md differs at byte %zu: write it anew (vesica schema --reference)\n%.80s", at,
               want + at);
     free(got);
     ves_arena_destroy(&arena);

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-enum { SLOTS = 1 << 14 }; /* no problem file names this many variables and parameters */
-
 static const double two_pi = 6.283185307179586476925286766559;
 
 static const ves_arg *answer(const ves_curve_input *input, int key)
@@ -54,8 +52,11 @@ bool ves_input_reads(const ves_curve_input *input, int key, int slot)
 
 int ves_input_slots(const ves_curve_input *input, int key)
 {
-    int slots = SLOTS;
-    while (slots > 0 && !ves_input_reads(input, key, slots - 1)) slots--;
+    int slots = 0;
+    for (int c = 0; c < answer(input, key)->count; c++) {
+        int own = ves_formula_slots(answer(input, key)->formula[c]);
+        slots = own > slots ? own : slots;
+    }
     return slots;
 }
 

@@ -29,6 +29,14 @@ bool ves_formula_is_constant(const ves_formula *formula, double *value)
     return true;
 }
 
+int ves_formula_slots(const ves_formula *formula)
+{
+    int slots = 0;
+    for (int k = 0; k < formula->slots; k++)
+        if (formula->slot[k] >= slots) slots = formula->slot[k] + 1;
+    return slots;
+}
+
 bool ves_formula_uses_slot(const ves_formula *formula, int slot)
 {
     for (int k = 0; k < formula->slots; k++)

@@ -80,6 +80,7 @@ const ves_formula *ves_formula_derivative(const ves_formula *formula, int argume
 ves_dim ves_formula_dim(const ves_formula *formula);
 bool ves_formula_has_units(const ves_formula *formula); /* of some dimension: deg, rad and % do not count */
 bool ves_formula_is_constant(const ves_formula *formula, double *value); /* value may be NULL */
+int ves_formula_slots(const ves_formula *formula); /* the highest slot it reads plus one, 0: none */
 bool ves_formula_uses_slot(const ves_formula *formula, int slot);
 bool ves_formula_uses_argument(const ves_formula *formula, int argument);
 

@@ -12,15 +12,23 @@ static ves_status sample(ves_plan *plan, int index, plan_program which, bool gra
     return VES_OK;
 }
 
-static ves_status measure(ves_plan *plan, int index, plan_program which)
+static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bool dear)
 {
     const ves_problem *p = plan->problem;
     for (int m = 0; m < p->measures; m++) {
-        if (!plan->runs[which][m]) continue;
+        if (!plan->runs[which][m] || (p->measure[m].measure->cost > 0) != dear) continue;
         VES_TRY(p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]));
         if (!isfinite(plan->value[m])) return VES_NO_NUMBER;
     }
     return VES_OK;
+}
+
+/* Cheap measures first: a candidate that they already put beyond the cutoff never pays for the dear ones. */
+static ves_status measure(ves_plan *plan, int index, plan_program which)
+{
+    VES_TRY(measure_cost(plan, index, which, false));
+    if (which == PROGRAM_JUDGE && plan->any_dear && plan_cheap_violation(plan) > plan->cutoff) return VES_CUT;
+    return measure_cost(plan, index, which, true);
 }
 
 double plan_formula(ves_plan *plan, const ves_formula *formula)

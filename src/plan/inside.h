@@ -56,11 +56,15 @@ struct ves_plan {
     ves_curves *curves;
     ves_bound bound;
     ves_patch **patch;
-    double *side; /* [patches] +1: Xu x Xv points outward */
+    bool branched; /* more than two patches end on some curve */
+    double *side;  /* [patches] +1: Xu x Xv points outward */
     plan_level level[LEVELS];
     bool *runs[PROGRAMS]; /* [measures] */
     double *value;        /* [measures] */
     double *size;         /* [constraints] the scale of each violation, fixed at the start */
+    bool *cheap;          /* [constraints] reads no dear measure */
+    bool any_dear;        /* some judged measure is dear */
+    double cutoff;        /* of the question at hand */
     double similarity;
     double *formula_room;
     double *measure_adjoint;
@@ -88,6 +92,9 @@ void plan_pull(ves_plan *plan, const double *number_adjoint, double *slot_row);
 ves_status plan_forward(ves_plan *plan, const double *x, int level, plan_program which, bool gradient);
 ves_status plan_run(ves_plan *plan, int level, plan_program which, bool gradient);
 double plan_formula(ves_plan *plan, const ves_formula *formula);
+
+/* judge.c: the largest violation among the constraints that read no dear measure */
+double plan_cheap_violation(ves_plan *plan);
 
 /* gradient.c */
 void plan_gradient(ves_plan *plan, int level, int output, const ves_formula *const *formula,

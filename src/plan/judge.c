@@ -33,6 +33,16 @@ void ves_plan_constraint(const ves_plan *plan, int k, double *left, double *righ
     *v = violation(c, excess(p, k));
 }
 
+double plan_cheap_violation(ves_plan *plan)
+{
+    double worst = 0;
+    for (int k = 0; k < plan->problem->constraints; k++) {
+        const ves_constraint_def *c = &plan->problem->constraint[k];
+        if (plan->cheap[k]) worst = fmax(worst, violation(c, excess(plan, k) * own_tolerance(c)));
+    }
+    return worst;
+}
+
 static double objective(ves_plan *plan)
 {
     const ves_problem *p = plan->problem;
@@ -82,6 +92,7 @@ static ves_status gradients(ves_plan *plan, int index, ves_verdict *verdict)
 static ves_status judge(ves_plan *plan, const ves_ask *ask, int index, ves_verdict *verdict)
 {
     bool gradient = ask->want & VES_WANT_GRADIENT;
+    plan->cutoff = ask->cutoff;
     VES_TRY(plan_forward(plan, ask->x, index, PROGRAM_JUDGE, gradient));
     VES_TRY(plan_validity(plan, index));
     VES_TRY(values(plan, verdict));

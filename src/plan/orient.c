@@ -44,33 +44,23 @@ static int ends_on(const ves_plan *plan, int curve)
     return count;
 }
 
-static ves_status disagree(ves_plan *plan, int a, int b, int curve, ves_diag *diag)
-{
-    return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, def(plan, b)->mark,
-                        "patches \"%s\" and \"%s\" cannot both be oriented: through their shared curves "
-                        "(here \"%s\") each would have to "
-                        "turn the other round",
-                        def(plan, a)->name, def(plan, b)->name, plan->problem->curve[curve].name);
-}
-
-/* Spreads a sign from patch a over the curve at one of its ends. */
-static ves_status spread(ves_plan *plan, int a, int end, bool *changed, ves_diag *diag)
+/* Spreads the side of patch a over the curve at one of its ends; true when that reached a patch. A walk over
+ * shared curves passes each patch forward or backward, so with two ends on each curve there is no
+ * contradiction to meet. */
+static bool spread(ves_plan *plan, int a, int end)
 {
     int curve = end_curve(plan, a, end);
-    if (curve < 0 || end_is_pole(plan, a, end)) return VES_OK;
+    if (curve < 0 || end_is_pole(plan, a, end) || ends_on(plan, curve) > 2) return false;
     for (int b = 0; b < plan->problem->patches; b++)
         for (int e = 0; e < 2; e++) {
-            if ((a == b && e == end) || end_curve(plan, b, e) != curve) continue;
-            double side = e == end ? -plan->side[a] : plan->side[a];
-            if (plan->side[b] == 0)
-                plan->side[b] = side, *changed = true;
-            else if (plan->side[b] != side)
-                return disagree(plan, a, b, curve, diag);
+            if (plan->side[b] != 0 || end_curve(plan, b, e) != curve) continue;
+            plan->side[b] = e == end ? -plan->side[a] : plan->side[a];
+            return true;
         }
-    return VES_OK;
+    return false;
 }
 
-static ves_status spread_all(ves_plan *plan, ves_diag *diag)
+static void spread_all(ves_plan *plan)
 {
     int patches = plan->problem->patches;
     for (int seed = 0; seed < patches; seed++) {
@@ -79,11 +69,9 @@ static ves_status spread_all(ves_plan *plan, ves_diag *diag)
         for (bool changed = true; changed;) {
             changed = false;
             for (int a = 0; a < patches; a++)
-                for (int end = 0; end < 2 && plan->side[a] != 0; end++)
-                    VES_TRY(spread(plan, a, end, &changed, diag));
+                for (int end = 0; end < 2 && plan->side[a] != 0; end++) changed |= spread(plan, a, end);
         }
     }
-    return VES_OK;
 }
 
 /* A closed shape has no free end. */
@@ -109,8 +97,23 @@ static ves_status closed_check(const ves_plan *plan, ves_diag *diag)
     return VES_OK;
 }
 
+/* Where more than two patches meet there is no inside, and no mesh that CGAL would take. */
+static void branches_find(ves_plan *plan, ves_diag *diag)
+{
+    for (int c = 0; c < plan->problem->curves; c++) {
+        if (ends_on(plan, c) <= 2 || ves_curves_modes(plan->curves, c) == 0) continue;
+        plan->branched = true;
+        ves_diag_add(diag, VES_WARNING, VES_OK, plan->problem->curve[c].mark,
+                     "more than two patches end on curve \"%s\": the normals of each keep their own side "
+                     "there, and the shape is not "
+                     "checked for crossing itself",
+                     plan->problem->curve[c].name);
+    }
+}
+
 ves_status plan_orient(ves_plan *plan, ves_diag *diag)
 {
-    VES_TRY(spread_all(plan, diag));
+    branches_find(plan, diag);
+    spread_all(plan);
     return closed_check(plan, diag);
 }

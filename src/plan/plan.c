@@ -31,7 +31,16 @@ static ves_status runs_make(ves_plan *plan)
         runs_add(plan, PROGRAM_JUDGE, p->constraint[k].left);
         runs_add(plan, PROGRAM_JUDGE, p->constraint[k].right);
     }
+    for (int k = 0; k < p->constraints; k++) {
+        plan->cheap[k] = true;
+        for (int m = 0; m < p->measures; m++) {
+            bool reads = ves_formula_uses_argument(p->constraint[k].left, m) ||
+                         ves_formula_uses_argument(p->constraint[k].right, m);
+            if (reads && p->measure[m].measure->cost > 0) plan->cheap[k] = false;
+        }
+    }
     for (int m = 0; m < p->measures; m++) {
+        plan->any_dear |= plan->runs[PROGRAM_JUDGE][m] && p->measure[m].measure->cost > 0;
         plan->runs[PROGRAM_JUDGE][m] |=
             plan->runs[PROGRAM_SOLVE][m]; /* the gradient of the root needs them too */
         plan->runs[PROGRAM_ALL][m] = true;
@@ -77,6 +86,8 @@ static ves_status memory_take(ves_plan *plan)
     plan->value = ves_arena_doubles(a, (size_t)p->measures);
     plan->measure_adjoint = ves_arena_doubles(a, (size_t)p->measures);
     plan->size = ves_arena_doubles(a, (size_t)p->constraints);
+    plan->cheap = ves_arena_take(a, (size_t)p->constraints, sizeof *plan->cheap);
+    plan->cutoff = HUGE_VAL;
     plan->formula_room = ves_arena_doubles(a, (size_t)formula_room(p));
     plan->rows = ves_arena_doubles(a, outputs * (size_t)p->slots);
     plan->row_similarity = ves_arena_doubles(a, outputs);
@@ -87,8 +98,9 @@ static ves_status memory_take(ves_plan *plan)
     plan->patch = ves_arena_take(a, (size_t)p->patches, sizeof *plan->patch);
     plan->side = ves_arena_take(a, (size_t)p->patches, sizeof *plan->side);
     return plan->block && plan->block_adjoint && plan->value && plan->measure_adjoint && plan->size &&
-                   plan->formula_room && plan->rows && plan->row_similarity && plan->unit_row &&
-                   plan->field && plan->field_adjoint && plan->form && plan->patch && plan->side
+                   plan->cheap && plan->formula_room && plan->rows && plan->row_similarity &&
+                   plan->unit_row && plan->field && plan->field_adjoint && plan->form && plan->patch &&
+                   plan->side
                ? VES_OK
                : VES_MEMORY;
 }
@@ -288,20 +300,22 @@ const ves_plan_counts *ves_plan_counted(const ves_plan *plan)
 ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u, const double *v,
                            double *out)
 {
-    double *room = ves_memory_take(sizeof *room * (size_t)ves_patch_point_room(plan->patch[patch]));
+    ves_arena arena = {0};
+    double *room = ves_arena_doubles(&arena, (size_t)ves_patch_point_room(plan->patch[patch]));
     if (!room) return VES_MEMORY;
     ves_patch_point(plan->patch[patch], &plan->bound, count, u, v, out, room);
     for (long k = 0; k < 3L * VES_FIELDS * count; k++) out[k] *= plan->similarity;
-    ves_memory_free(room);
+    ves_arena_destroy(&arena);
     return VES_OK;
 }
 
 ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u, double *out)
 {
-    double *room = ves_memory_take(sizeof *room * (size_t)ves_patch_point_room(plan->patch[patch]));
+    ves_arena arena = {0};
+    double *room = ves_arena_doubles(&arena, (size_t)ves_patch_point_room(plan->patch[patch]));
     if (!room) return VES_MEMORY;
     bool has = ves_patch_spine(plan->patch[patch], &plan->bound, count, u, out, room);
     for (long k = 0; has && k < 9L * count; k++) out[k] *= plan->similarity;
-    ves_memory_free(room);
+    ves_arena_destroy(&arena);
     return has ? VES_OK : VES_ABSENT;
 }

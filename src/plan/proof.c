@@ -11,6 +11,7 @@ ves_status plan_crosses(ves_plan *plan)
     ves_mesh mesh;
     char message[VES_BRIDGE_TEXT];
     bool crosses = false;
+    if (plan->branched) return VES_OK;
     VES_TRY(plan_figure_make(plan, ALONG, AROUND, &figure));
     ves_status status = ves_figure_mesh(figure, &mesh, NULL, NULL);
     if (status == VES_OK) status = ves_bridge_crosses(&mesh, &crosses, message);

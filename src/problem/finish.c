@@ -26,14 +26,15 @@ static int weight_of(const ves_reader *reader, int owner)
 
 static void mark_slots(const ves_reader *reader, const ves_formula *formula, int weight, char *use)
 {
-    for (int k = 0; formula && k < reader->slots; k++)
+    if (!formula || weight == IDLE || ves_formula_is_constant(formula, NULL)) return;
+    for (int k = 0; k < reader->slots; k++)
         if (use[k] < weight && ves_formula_uses_slot(formula, k)) use[k] = (char)weight;
 }
 
 /* After other errors formulas are missing; then only a name that stands nowhere is sure to be idle. */
 static bool stands_nowhere(const ves_reader *reader, const ves_fields *root, const char *name)
 {
-    if (reader->status == VES_OK) return true;
+    if (ves_reader_full(reader)) return false;
     if (!ves_node_find(ves_fields_find(root, "variables"), name)) return false; /* by vary or solve */
     for (int k = 0; k < root->count; k++) {
         const ves_field *f = &root->field[k];
@@ -43,10 +44,10 @@ static bool stands_nowhere(const ves_reader *reader, const ves_fields *root, con
     return true;
 }
 
-static void idle(ves_reader *reader, const ves_fields *root, const ves_variable *v)
+static void idle(ves_reader *reader, const ves_fields *root, const ves_variable *v, bool sure)
 {
     static const char text[] = "variable \"%s\" drives nothing: no curve, patch, measure or goal uses it";
-    if (!stands_nowhere(reader, root, v->name)) return;
+    if (!sure && !stands_nowhere(reader, root, v->name)) return;
     if (reader->script->edit)
         ves_reader_warn(reader, v->mark, text, v->name); /* --set may well have done that */
     else
@@ -61,18 +62,19 @@ static void check_use(ves_reader *reader, const ves_fields *root)
     for (int k = 0; k < reader->uses; k++)
         mark_slots(reader, reader->use[k].formula, weight_of(reader, reader->use[k].owner), use);
     int first = p->variables + p->unknowns;
+    bool sure = reader->status == VES_OK;
     for (int k = p->parameters - 1; k >= 0; k--)
         mark_slots(reader, p->parameter[k].formula, use[first + k], use);
     for (int k = 0; k < p->variables; k++) {
         const ves_variable *v = &p->variable[k];
         if (use[k] == IDLE)
-            idle(reader, root, v);
-        else if (use[k] == BY_UNUSED_CURVE && reader->status == VES_OK)
+            idle(reader, root, v, sure);
+        else if (use[k] == BY_UNUSED_CURVE && sure)
             ves_reader_warn(reader, v->mark, "variable \"%s\" moves only a curve that no patch uses",
                             v->name);
     }
     const ves_node *unknown = ves_node_find(ves_fields_find(root, "solve"), "unknown");
-    if (p->unknowns && use[p->variables] == IDLE && reader->status == VES_OK)
+    if (p->unknowns && use[p->variables] == IDLE && sure)
         ves_reader_error(reader, VES_NAME, unknown, "the unknown \"%s\" drives nothing", p->solve->name);
 }
 

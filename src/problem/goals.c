@@ -146,6 +146,11 @@ static void read_scale(scope *s, const ves_node *node)
                          "scale needs MEASURE == formula of variables and parameters, as in area == 4*pi");
         return;
     }
+    if (reader->measure[measure].measure->degree == VES_NO_DEGREE) {
+        ves_reader_error(reader, VES_RANGE, equation, "how \"%s\" grows with the shape is not known; scale needs a measure like area",
+                         reader->measure[measure].name);
+        return;
+    }
     if (reader->measure[measure].measure->degree == 0) {
         ves_reader_error(reader, VES_RANGE, equation, "scaling a shape does not change its \"%s\"",
                          reader->measure[measure].name);

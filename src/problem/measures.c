@@ -51,9 +51,10 @@ static void note_curves(ves_reader *reader, const ves_args *args)
     }
 }
 
-static void check_closed(ves_reader *reader, const ves_node *node, const ves_measure *measure)
+static void check_closed(ves_reader *reader, const ves_node *node, const ves_measure *measure, const ves_args *args)
 {
-    if (!measure->closed || reader->problem->shape.closed) return;
+    bool needed = measure->closed || (measure->closes && measure->closes(args));
+    if (!needed || reader->problem->shape.closed) return;
     ves_reader_error(
         reader, VES_RANGE, node,
         "\"%s\" needs a closed shape: write shape: {closed: true}, with caps: [PATCH.u0, ...] for open ends",
@@ -68,12 +69,12 @@ static void make(ves_reader *reader, const ves_measure *measure, const char *nam
     ves_dim *outer = reader->free, dim = {.any = true};
     const ves_node *over = measure->surface ? ves_fields_find(fields, "over") : NULL;
     *def = (ves_measure_def){.name = name, .mark = ves_reader_mark(reader, node), .measure = measure};
-    check_closed(reader, node, measure);
     reader->free = &dim;
     int count = key_count(measure);
     ves_reader_args(reader, fields, count < fields->count ? count : fields->count, node, &def->args);
     reader->free = outer;
     if (reader->status == VES_MEMORY) return;
+    check_closed(reader, node, measure, &def->args);
     if (over) def->patch = ves_reader_patches(reader, over, &def->over);
     note_curves(reader, &def->args);
     def->dim = dim_of(measure, &def->args);

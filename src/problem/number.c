@@ -124,7 +124,8 @@ double ves_reader_value(ves_reader *reader, const ves_formula *formula)
 
 bool ves_reader_varies(const ves_reader *reader, const ves_formula *formula)
 {
-    for (int k = 0; formula && k < reader->slots; k++)
+    if (!formula || ves_formula_is_constant(formula, NULL)) return false;
+    for (int k = 0; k < reader->slots; k++)
         if (reader->varying[k] && ves_formula_uses_slot(formula, k)) return true;
     return false;
 }
@@ -189,8 +190,8 @@ static void check_range(ves_reader *reader, const ves_node *node, const ves_key 
                         const ves_formula *formula)
 {
     double value = ves_reader_value(reader, formula);
-    if (isnan(value) && ves_reader_varies(reader, formula)) return;
     bool constant = !ves_reader_varies(reader, formula);
+    if (!constant && (isnan(value) || !bounded(key))) return;
     char limits[96], got[32];
     ves_reader_show(value, got);
     limits_text(key, limits);

@@ -71,7 +71,8 @@ void ves_chart_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_pl
 void ves_chart_gather(ves_chart *chart, const ves_bound *bound, double *number_adjoint);
 void ves_patch_unbind(ves_patch *patch, const ves_bound *bound, double *number_adjoint);
 
-/* Exact values at scattered points: out[(f * 3 + c) * count + k]. room from ves_patch_point_room. */
+/* Exact values at scattered points: out[(f * 3 + c) * count + k]. room: ves_patch_point_room doubles, aligned to
+ * 64 bytes. */
 long ves_patch_point_room(const ves_patch *patch);
 void ves_patch_point(const ves_patch *patch, const ves_bound *bound, int count, const double *u,
                      const double *v, double *out, double *room);

@@ -29,7 +29,7 @@ ves_status ves_layout_check(const ves_layout *layout);
 /* Doubles in a table of `modes` modes (0 .. modes) at nu places. */
 long ves_weights_size(const ves_layout *layout, int modes, int nu);
 
-/* Doubles of scratch for ves_weights_bind. */
+/* Doubles of scratch, aligned to 64 bytes, for ves_weights_bind and ves_weights_mode. */
 long ves_weights_room(int nu);
 
 /* Fills the table for modes 0 .. modes at lam = a n (a >= 0; 0 is legal). table_a: the derivatives with
