@@ -25,7 +25,7 @@ static double sweep(ves_plan *plan, int index, plan_program which)
     double by_similarity = 0;
     ves_curves_clear(plan->curves);
     for (int k = 0; k < p->patches; k++) ves_patch_clear(plan->patch[k]);
-    for (int k = 0; k < l->sites; k++) site_clear(&l->site[k], l->site[k].needs[which]);
+    for (int k = 0; k < l->sites; k++) site_clear(&l->site[k], l->site[k].slopes[which]);
     for (int m = 0; m < p->measures; m++) {
         if (!plan->runs[which][m] || plan->measure_adjoint[m] == 0) continue;
         const plan_instance *in = &l->instance[m];
@@ -33,9 +33,9 @@ static double sweep(ves_plan *plan, int index, plan_program which)
                                         plan->block_adjoint);
     }
     for (int k = 0; k < l->sites; k++)
-        by_similarity += site_scatter(plan, &l->site[k], l->site[k].needs[which]);
+        by_similarity += site_scatter(plan, &l->site[k], l->site[k].slopes[which]);
     for (int k = 0; k < l->sites; k++)
-        if (l->site[k].needs[which]) site_gather(plan, &l->site[k]);
+        if (l->site[k].slopes[which]) site_gather(plan, &l->site[k]);
     for (int k = 0; k < p->patches; k++) ves_patch_unbind(plan->patch[k], &plan->bound, plan->block_adjoint);
     ves_curves_scatter(plan->curves, plan->block, plan->block_adjoint);
     return by_similarity;

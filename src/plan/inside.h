@@ -29,8 +29,9 @@ typedef struct plan_site {
     double *trig; /* curve: [e][k][nv] */
     double side;  /* orientation of the patch */
     bool varies;
-    unsigned needs[PROGRAMS]; /* VES_X | ... */
-    unsigned wants;           /* all of them */
+    unsigned needs[PROGRAMS];  /* VES_X | ... */
+    unsigned slopes[PROGRAMS]; /* those that measures asked for: validity's have no adjoint */
+    unsigned wants;            /* all of them */
 } plan_site;
 
 /* One measure at one level. */

@@ -123,7 +123,7 @@ static int references(const ves_measure_def *m)
 static void need(plan_site *s, const ves_plan *plan, int measure, unsigned wanted)
 {
     for (int p = 0; p < PROGRAMS; p++)
-        if (plan->runs[p][measure]) s->needs[p] |= wanted;
+        if (plan->runs[p][measure]) s->needs[p] |= wanted, s->slopes[p] |= wanted;
     s->wants |= wanted;
 }
 
@@ -288,21 +288,22 @@ static void curve_sample(ves_plan *plan, plan_site *s, unsigned needs)
         }
 }
 
-/* A plane of a tile into the plane of the grid; factor: for dA the weights (or NULL). */
+/* A plane of a tile into the plane of the grid, times factor (for dA the weights) when there is one. */
 static void tile_store(const plan_site *s, const ves_tile *tile, const double *from, const double *factor,
                        double *to)
 {
-    int nu = s->grid.nu;
-    if (tile->lanes < VES_LANES || factor) {
-        for (int r = 0; r < tile->rows; r++) {
-            size_t at = (size_t)(tile->row[r] * nu + tile->block);
+    for (int r = 0; r < tile->rows; r++) {
+        size_t at = (size_t)(tile->row[r] * s->grid.nu + tile->block);
+        const double *row = from + r * VES_LANES;
+        if (tile->lanes == VES_LANES) {
+            ves_lanes x = ves_lanes_at(row);
+            if (factor) x *= ves_lanes_at(factor + at);
+            memcpy(to + at, &x, sizeof x);
+        } else {
             for (int i = 0; i < tile->lanes; i++)
-                to[at + (size_t)i] = from[r * VES_LANES + i] * (factor ? factor[at + (size_t)i] : 1);
+                to[at + (size_t)i] = row[i] * (factor ? factor[at + (size_t)i] : 1);
         }
-        return;
     }
-    for (int r = 0; r < tile->rows; r++)
-        memcpy(to + tile->row[r] * nu + tile->block, from + r * VES_LANES, VES_LANES * sizeof *to);
 }
 
 static void tile_scale(const ves_tile *tile, double similarity, ves_tile_planes *field)
@@ -373,16 +374,24 @@ void site_clear(plan_site *s, unsigned needs)
     if (needs & VES_CURVATURE) plane_clear(s->adjoint.H, count), plane_clear(s->adjoint.K, count);
 }
 
-/* The plane of a grid into a tile; lanes beyond the grid are zero. */
+/* The plane of a grid into a tile, times factor when there is one; lanes beyond the grid are zero. add: to
+ * what is there. */
 static void tile_load(const plan_site *s, const ves_tile *tile, const double *from, const double *factor,
-                      double *to)
+                      bool add, double *to)
 {
-    int nu = s->grid.nu;
     for (int r = 0; r < tile->rows; r++) {
-        size_t at = (size_t)(tile->row[r] * nu + tile->block);
-        for (int i = 0; i < VES_LANES; i++)
-            to[r * VES_LANES + i] =
-                i < tile->lanes ? from[at + (size_t)i] * (factor ? factor[at + (size_t)i] : 1) : 0;
+        size_t at = (size_t)(tile->row[r] * s->grid.nu + tile->block);
+        ves_lanes x = {0}, w = {0};
+        if (tile->lanes == VES_LANES) {
+            x = ves_lanes_at(from + at);
+            if (factor) x *= ves_lanes_at(factor + at);
+        } else {
+            for (int i = 0; i < tile->lanes; i++)
+                x[i] = from[at + (size_t)i] * (factor ? factor[at + (size_t)i] : 1);
+        }
+        if (add) w = ves_lanes_at(to + r * VES_LANES);
+        x += w;
+        memcpy(to + r * VES_LANES, &x, sizeof x);
     }
 }
 
@@ -391,33 +400,38 @@ static void plane_zero(const ves_tile *tile, double *to)
     memset(to, 0, sizeof *to * (size_t)(tile->rows * VES_LANES));
 }
 
-static void adjoint_load(const plan_site *s, const ves_tile *tile, unsigned needs, ves_tile_planes *field,
-                         ves_form_planes *form)
+static void form_adjoint_load(const plan_site *s, const ves_tile *tile, unsigned needs, ves_form_planes *form)
 {
-    for (int f = 0; f < VES_FIELDS; f++)
-        for (int c = 0; c < 3 && tile->fields & 1u << f; c++) {
-            if (needs & FIELD_NEED[f])
-                tile_load(s, tile, adjoint_field((ves_adjoint *)&s->adjoint, f)[c], NULL,
-                          field->at[f * 3 + c]);
-            else
-                plane_zero(tile, field->at[f * 3 + c]);
-        }
-    for (int c = 0; c < 3; c++) {
-        if (needs & VES_NORMAL)
-            tile_load(s, tile, s->adjoint.normal[c], NULL, form->at[VES_FORM_NX + c]);
-        else
-            plane_zero(tile, form->at[VES_FORM_NX + c]);
-    }
+    for (int c = 0; c < 3 && needs & VES_NORMAL; c++)
+        tile_load(s, tile, s->adjoint.normal[c], NULL, false, form->at[VES_FORM_NX + c]);
     if (needs & VES_AREA)
-        tile_load(s, tile, s->adjoint.dA, s->grid.weight, form->at[VES_FORM_J]);
+        tile_load(s, tile, s->adjoint.dA, s->grid.weight, false, form->at[VES_FORM_J]);
     else
         plane_zero(tile, form->at[VES_FORM_J]);
-    if (needs & VES_CURVATURE) {
-        tile_load(s, tile, s->adjoint.H, NULL, form->at[VES_FORM_H]);
-        tile_load(s, tile, s->adjoint.K, NULL, form->at[VES_FORM_K]);
-    } else {
-        plane_zero(tile, form->at[VES_FORM_H]), plane_zero(tile, form->at[VES_FORM_K]);
+    if (!(needs & VES_CURVATURE)) return;
+    tile_load(s, tile, s->adjoint.H, NULL, false, form->at[VES_FORM_H]);
+    tile_load(s, tile, s->adjoint.K, NULL, false, form->at[VES_FORM_K]);
+}
+
+/* The adjoint of the fields of one tile: what flows back through the forms, and what measures gave directly.
+ */
+static void adjoint_make(ves_plan *plan, const plan_site *s, const ves_tile *tile, unsigned needs)
+{
+    ves_tile_planes *to = plan->field_adjoint;
+    if (needs & FORM_NEEDS) {
+        form_adjoint_load(s, tile, needs, plan->form);
+        ves_forms_gradient(tile, plan->field, s->side, !(needs & VES_NORMAL), plan->form, to);
     }
+    for (int f = 0; f < VES_FIELDS; f++)
+        for (int c = 0; c < 3 && tile->fields & 1u << f; c++) {
+            bool made = needs & FORM_NEEDS && f != VES_FIELD_X &&
+                        (VES_FIELD_D[f] + VES_FIELD_E[f] == 1 || needs & VES_CURVATURE);
+            if (needs & FIELD_NEED[f])
+                tile_load(s, tile, adjoint_field((ves_adjoint *)&s->adjoint, f)[c], NULL, made,
+                          to->at[f * 3 + c]);
+            else if (!made)
+                plane_zero(tile, to->at[f * 3 + c]);
+        }
 }
 
 /* X = similarity X0: the adjoint of X0 is similarity times that of X, and d J / d similarity their inner
@@ -471,9 +485,7 @@ double site_scatter(ves_plan *plan, plan_site *s, unsigned needs)
         ves_tile_at(&s->grid, GRADIENT_ROWS, k, fields_for(needs), &tile);
         ves_chart_sample(s->chart, &tile, plan->field);
         if (plan->similarity != 1) tile_scale(&tile, plan->similarity, plan->field);
-        adjoint_load(s, &tile, needs, plan->field_adjoint, plan->form);
-        if (needs & FORM_NEEDS)
-            ves_forms_gradient(&tile, plan->field, s->side, plan->form, plan->field_adjoint);
+        adjoint_make(plan, s, &tile, needs);
         if (scaled) by_similarity += tile_unscale(&tile, plan->similarity, plan->field, plan->field_adjoint);
         ves_chart_scatter(s->chart, &tile, plan->field_adjoint);
     }

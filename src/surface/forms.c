@@ -51,60 +51,65 @@ double ves_forms_eval(const ves_tile *tile, const ves_tile_planes *field, double
 
 /* p = E n.Xvv - 2 F n.Xuv + G n.Xuu and q = n.Xuu n.Xvv - (n.Xuv)^2 carry H and K; everything flows back
  * through n, E, F, G. */
-void ves_forms_gradient(const ves_tile *tile, const ves_tile_planes *field, double side,
-                        const ves_form_planes *form_adjoint, ves_tile_planes *field_adjoint)
+HOT void gradient(const ves_tile *tile, const ves_tile_planes *field, double side, bool second,
+                  bool no_normal, const ves_form_planes *form_adjoint, ves_tile_planes *field_adjoint)
 {
-    const double *restrict xu = field->at[3], *restrict yu = field->at[4], *restrict zu = field->at[5];
-    const double *restrict xv = field->at[6], *restrict yv = field->at[7], *restrict zv = field->at[8];
-    const double *restrict gnx = form_adjoint->at[VES_FORM_NX], *restrict gny = form_adjoint->at[VES_FORM_NY];
-    const double *restrict gnz = form_adjoint->at[VES_FORM_NZ], *restrict gja = form_adjoint->at[VES_FORM_J];
-    const double *restrict gh = form_adjoint->at[VES_FORM_H], *restrict gk = form_adjoint->at[VES_FORM_K];
-    const double *restrict xuu = field->at[9], *restrict yuu = field->at[10], *restrict zuu = field->at[11];
-    const double *restrict xuv = field->at[12], *restrict yuv = field->at[13], *restrict zuv = field->at[14];
-    const double *restrict xvv = field->at[15], *restrict yvv = field->at[16], *restrict zvv = field->at[17];
-    double *restrict axu = field_adjoint->at[3], *restrict ayu = field_adjoint->at[4],
-                     *restrict azu = field_adjoint->at[5];
-    double *restrict axv = field_adjoint->at[6], *restrict ayv = field_adjoint->at[7],
-                     *restrict azv = field_adjoint->at[8];
-    double *restrict axuu = field_adjoint->at[9], *restrict ayuu = field_adjoint->at[10],
-                     *restrict azuu = field_adjoint->at[11];
-    double *restrict axuv = field_adjoint->at[12], *restrict ayuv = field_adjoint->at[13],
-                     *restrict azuv = field_adjoint->at[14];
-    double *restrict axvv = field_adjoint->at[15], *restrict ayvv = field_adjoint->at[16],
-                     *restrict azvv = field_adjoint->at[17];
+    const double *restrict f = field->at[0], *restrict g = form_adjoint->at[0];
+    double *restrict to = field_adjoint->at[0];
     int count = tile->rows * VES_LANES;
-    bool second = (tile->fields & SECOND) == SECOND;
+    enum { S = VES_TILE_STRIDE };
 #pragma omp simd
     for (int s = 0; s < count; s++) {
-        double a = yu[s] * zv[s] - zu[s] * yv[s], b = zu[s] * xv[s] - xu[s] * zv[s];
-        double c = xu[s] * yv[s] - yu[s] * xv[s], r = 1 / sqrt(a * a + b * b + c * c), r2 = r * r;
-        double t = side * r, along = t * r2 * (gnx[s] * a + gny[s] * b + gnz[s] * c); /* -dN/dJ . gN / J */
-        double ga = t * gnx[s] + (gja[s] * r - along) * a, gb = t * gny[s] + (gja[s] * r - along) * b;
-        double gc = t * gnz[s] + (gja[s] * r - along) * c, ge = 0, gf = 0, gg = 0;
-        if (second) {
-            double e = xu[s] * xu[s] + yu[s] * yu[s] + zu[s] * zu[s],
-                   g = xv[s] * xv[s] + yv[s] * yv[s] + zv[s] * zv[s];
-            double f = xu[s] * xv[s] + yu[s] * yv[s] + zu[s] * zv[s];
-            double l = a * xuu[s] + b * yuu[s] + c * zuu[s], m = a * xuv[s] + b * yuv[s] + c * zuv[s];
-            double n = a * xvv[s] + b * yvv[s] + c * zvv[s];
-            double gp = -0.5 * t * r2 * gh[s], gq = r2 * r2 * gk[s], p = e * n - 2 * f * m + g * l,
-                   q = l * n - m * m;
-            double back = (-3 * gp * p - 4 * gq * q) *
-                          r2; /* J in the denominators of H and K, over J for dJ = n.dn / J */
-            double gl = gp * g + gq * n, gm = -2 * (gp * f + gq * m), gn = gp * e + gq * l;
-            ge = gp * n, gf = -2 * gp * m, gg = gp * l;
-            ga += back * a + gl * xuu[s] + gm * xuv[s] + gn * xvv[s];
-            gb += back * b + gl * yuu[s] + gm * yuv[s] + gn * yvv[s];
-            gc += back * c + gl * zuu[s] + gm * zuv[s] + gn * zvv[s];
-            axuu[s] += gl * a, ayuu[s] += gl * b, azuu[s] += gl * c;
-            axuv[s] += gm * a, ayuv[s] += gm * b, azuv[s] += gm * c;
-            axvv[s] += gn * a, ayvv[s] += gn * b, azvv[s] += gn * c;
+        double xu = f[3 * S + s], yu = f[4 * S + s], zu = f[5 * S + s], xv = f[6 * S + s], yv = f[7 * S + s],
+               zv = f[8 * S + s];
+        double a = yu * zv - zu * yv, b = zu * xv - xu * zv, c = xu * yv - yu * xv;
+        double r = 1 / sqrt(a * a + b * b + c * c), r2 = r * r, t = side * r, ga = 0, gb = 0, gc = 0,
+               scale = g[VES_FORM_J * S + s] * r;
+        if (!no_normal) {
+            double nx = g[VES_FORM_NX * S + s], ny = g[VES_FORM_NY * S + s], nz = g[VES_FORM_NZ * S + s];
+            ga = t * nx, gb = t * ny, gc = t * nz;
+            scale -= t * r2 * (nx * a + ny * b + nz * c); /* -dN/dJ . gN / J */
         }
-        axu[s] += yv[s] * gc - zv[s] * gb + 2 * ge * xu[s] + gf * xv[s];
-        ayu[s] += zv[s] * ga - xv[s] * gc + 2 * ge * yu[s] + gf * yv[s];
-        azu[s] += xv[s] * gb - yv[s] * ga + 2 * ge * zu[s] + gf * zv[s];
-        axv[s] += gb * zu[s] - gc * yu[s] + 2 * gg * xv[s] + gf * xu[s];
-        ayv[s] += gc * xu[s] - ga * zu[s] + 2 * gg * yv[s] + gf * yu[s];
-        azv[s] += ga * yu[s] - gb * xu[s] + 2 * gg * zv[s] + gf * zu[s];
+        double ge = 0, gf = 0, gg = 0;
+        if (second) {
+            double xuu = f[9 * S + s], yuu = f[10 * S + s], zuu = f[11 * S + s], xuv = f[12 * S + s],
+                   yuv = f[13 * S + s];
+            double zuv = f[14 * S + s], xvv = f[15 * S + s], yvv = f[16 * S + s], zvv = f[17 * S + s];
+            double e = xu * xu + yu * yu + zu * zu, gm1 = xv * xv + yv * yv + zv * zv,
+                   fm = xu * xv + yu * yv + zu * zv;
+            double l = a * xuu + b * yuu + c * zuu, m = a * xuv + b * yuv + c * zuv,
+                   n = a * xvv + b * yvv + c * zvv;
+            double gp = -0.5 * t * r2 * g[VES_FORM_H * S + s], gq = r2 * r2 * g[VES_FORM_K * S + s];
+            double p = e * n - 2 * fm * m + gm1 * l, q = l * n - m * m;
+            double gl = gp * gm1 + gq * n, gm = -2 * (gp * fm + gq * m), gn = gp * e + gq * l;
+            scale -= (3 * gp * p + 4 * gq * q) *
+                     r2; /* J in the denominators of H and K, over J for dJ = n.dn / J */
+            ge = gp * n, gf = -2 * gp * m, gg = gp * l;
+            ga += gl * xuu + gm * xuv + gn * xvv;
+            gb += gl * yuu + gm * yuv + gn * yvv;
+            gc += gl * zuu + gm * zuv + gn * zvv;
+            to[9 * S + s] = gl * a, to[10 * S + s] = gl * b, to[11 * S + s] = gl * c;
+            to[12 * S + s] = gm * a, to[13 * S + s] = gm * b, to[14 * S + s] = gm * c;
+            to[15 * S + s] = gn * a, to[16 * S + s] = gn * b, to[17 * S + s] = gn * c;
+        }
+        ga += scale * a, gb += scale * b, gc += scale * c;
+        to[3 * S + s] = yv * gc - zv * gb + 2 * ge * xu + gf * xv;
+        to[4 * S + s] = zv * ga - xv * gc + 2 * ge * yu + gf * yv;
+        to[5 * S + s] = xv * gb - yv * ga + 2 * ge * zu + gf * zv;
+        to[6 * S + s] = gb * zu - gc * yu + 2 * gg * xv + gf * xu;
+        to[7 * S + s] = gc * xu - ga * zu + 2 * gg * yv + gf * yu;
+        to[8 * S + s] = ga * yu - gb * xu + 2 * gg * zv + gf * zu;
     }
+}
+
+void ves_forms_gradient(const ves_tile *tile, const ves_tile_planes *field, double side, bool no_normal,
+                        const ves_form_planes *form_adjoint, ves_tile_planes *field_adjoint)
+{
+    bool second = (tile->fields & SECOND) == SECOND;
+    if (second && no_normal)
+        gradient(tile, field, side, true, true, form_adjoint, field_adjoint);
+    else if (second)
+        gradient(tile, field, side, true, false, form_adjoint, field_adjoint);
+    else
+        gradient(tile, field, side, false, no_normal, form_adjoint, field_adjoint);
 }

@@ -18,8 +18,9 @@ typedef struct ves_form_planes {
  * largest (E + G)^2 seen: near 0 the surface has a point without a tangent plane. */
 double ves_forms_eval(const ves_tile *tile, const ves_tile_planes *field, double side, ves_form_planes *form);
 
-/* Adds to d J / d fields, given d J / d forms (normal, J, H, K). */
-void ves_forms_gradient(const ves_tile *tile, const ves_tile_planes *field, double side,
+/* Overwrites d J / d (first and second derivatives), given d J / d forms (normal, J, H, K). no_normal: J does
+ * not depend on the normal, whose planes are then not read. */
+void ves_forms_gradient(const ves_tile *tile, const ves_tile_planes *field, double side, bool no_normal,
                         const ves_form_planes *form_adjoint, ves_tile_planes *field_adjoint);
 
 #endif
