@@ -84,6 +84,7 @@ static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_
         return VES_OK;
     }
     bool good = true;
+    ves_asker_flush(asker); /* the proof is told after what led to it, with any number of workers */
     if (!ves_session_over(session)) VES_TRY(ves_session_prove(session, &end->point, &good));
     if (good) cluster_add(c, session, end, 1);
     return VES_OK;

@@ -1,0 +1,200 @@
+/* vesica check: is the file in order, and what would a run do? */
+#include <math.h>
+#include <string.h>
+
+#include "app/app.h"
+#include "app/table.h"
+#include "study/facts.h"
+#include "study/result.h"
+
+/* What check finds out besides the start design. */
+typedef struct checked {
+    const ves_run *run;
+    ves_patch_facts *facts;
+    double value_time, gradient_time; /* s; NAN: not measured */
+} checked;
+
+static const double PATIENCE = 0.05; /* s for each timing */
+
+/* Seconds of one evaluation at the start; NAN: it cannot be measured. */
+static double time_one(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict)
+{
+    double begin = ves_study_clock(), now = begin;
+    long count = 0;
+    for (; now - begin < PATIENCE; now = ves_study_clock(), count++)
+        if (ves_plan_evaluate(plan, ask, verdict) != VES_OK || verdict->status != VES_OK) return NAN;
+    return (now - begin) / (double)count;
+}
+
+static ves_status timings(app *a, checked *c, ves_plan *plan)
+{
+    const ves_problem *p = c->run->problem;
+    size_t n = (size_t)p->variables, m = (size_t)p->constraints;
+    ves_verdict verdict = {0};
+    verdict.constraint = ves_arena_take(&a->arena, m, sizeof(double));
+    verdict.gradient = ves_arena_take(&a->arena, n, sizeof(double));
+    verdict.jacobian = ves_arena_take(&a->arena, n * m, sizeof(double));
+    if (!verdict.constraint || !verdict.gradient || !verdict.jacobian) return VES_MEMORY;
+    ves_ask ask = {.x = c->run->start.x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+    c->value_time = time_one(plan, &ask, &verdict);
+    c->gradient_time = NAN;
+    ask.want = VES_WANT_GRADIENT;
+    if (n && (p->objective || m) && ves_study_gradients(p)) c->gradient_time = time_one(plan, &ask, &verdict);
+    return VES_OK;
+}
+
+static ves_status look(app *a, checked *c)
+{
+    const ves_problem *p = c->run->problem;
+    ves_plan *plan;
+    c->facts = ves_arena_take(&a->arena, (size_t)p->patches, sizeof *c->facts);
+    if (!c->facts) return VES_MEMORY;
+    VES_TRY(ves_study_facts(p, c->run->start.slot, c->facts));
+    VES_TRY(ves_study_plan(p, c->run->quadrature, &plan, NULL));
+    ves_status status = timings(a, c, plan);
+    ves_plan_destroy(plan);
+    return status;
+}
+
+static const char *kind_of(const ves_patch_def *p)
+{
+    if (p->kind == VES_PATCH_FORMULA) return "formula";
+    if (p->kind == VES_PATCH_POINTS) return "points";
+    return p->power == 1 ? "PDE, order 2" : "PDE, order 4";
+}
+
+static void patches(const checked *c)
+{
+    const ves_problem *p = c->run->problem;
+    app_table t = {.align = "lll"};
+    app_table_cell(&t, "patch");
+    app_table_cell(&t, "made by");
+    app_table_end(&t);
+    for (int k = 0; k < p->patches; k++) {
+        const ves_patch_facts *f = &c->facts[k];
+        app_table_cell(&t, "%s", p->patch[k].name);
+        app_table_cell(&t, "%s", kind_of(&p->patch[k]));
+        if (p->patch[k].kind != VES_PATCH_PDE)
+            app_table_end(&t);
+        else if (f->modes == f->band)
+            app_table_cell(&t, "%d Fourier %s, all solved", f->band, f->band == 1 ? "mode" : "modes");
+        else
+            app_table_cell(&t, "%d of %d Fourier modes solved; the remainder carries %.1e of the data",
+                           f->modes, f->band, f->tail);
+    }
+    app_table_print(&t, stdout);
+    fputc('\n', stdout);
+}
+
+static void heading(const checked *c)
+{
+    const ves_problem *p = c->run->problem;
+    int equal = 0;
+    char v[64], e[64], i[64];
+    for (int k = 0; k < p->constraints; k++) equal += p->constraint[k].relation == VES_EQUAL;
+    printf("%s: ok\n  %s\n  %s, %s, %s\n\n", p->path, p->title,
+           app_screen_plural(p->variables, "variable", "variables", v),
+           app_screen_plural(equal, "equality", "equalities", e),
+           app_screen_plural(p->constraints - equal, "inequality", "inequalities", i));
+}
+
+static void variables(const checked *c)
+{
+    const ves_problem *p = c->run->problem;
+    app_table t = {.align = "lrl"};
+    char low[32], high[32];
+    if (!p->variables) return;
+    app_table_cell(&t, "variable");
+    app_table_cell(&t, "start");
+    app_table_cell(&t, "range");
+    for (int k = 0; k < p->variables; k++) {
+        const ves_variable *v = &p->variable[k];
+        app_table_cell(&t, "%s", v->name);
+        app_table_number(&t, v->start);
+        app_table_cell(&t, "[%s, %s]", app_screen_number(v->min, low), app_screen_number(v->max, high));
+    }
+    app_table_print(&t, stdout);
+    fputc('\n', stdout);
+}
+
+static void costs(const checked *c)
+{
+    const ves_run *run = c->run;
+    char value[32], gradient[32];
+    printf("  quadrature   %d x %d nodes a patch", run->quadrature[0], run->quadrature[1]);
+    if (isnan(run->change))
+        printf(", as the file says");
+    else
+        printf(", chosen: half as many again change a measure by %.1e at most", run->change);
+    if (!isnan(run->finer_change)) printf("; twice as many by %.1e", run->finer_change);
+    if (!isnan(c->value_time))
+        printf("\n  time         %s an evaluation", app_screen_time(c->value_time, value));
+    if (!isnan(c->gradient_time))
+        printf(", %s with gradients", app_screen_time(c->gradient_time, gradient));
+    else if (run->problem->variables && !ves_study_gradients(run->problem))
+        printf("; a measure has no gradient");
+    fputc('\n', stdout);
+}
+
+static void json_print(const checked *c)
+{
+    ves_json json = {.out = stdout};
+    const ves_problem *p = c->run->problem;
+    ves_json_object(&json, NULL);
+    ves_json_text(&json, "title", p->title);
+    ves_result_design(p, &c->run->best, &json);
+    ves_json_object(&json, "quadrature");
+    ves_json_integer(&json, "u", c->run->quadrature[0]);
+    ves_json_integer(&json, "v", c->run->quadrature[1]);
+    ves_json_number(&json, "change", c->run->change);
+    ves_json_end(&json, '}');
+    ves_json_object(&json, "patches");
+    for (int k = 0; k < p->patches; k++) {
+        ves_json_object(&json, p->patch[k].name);
+        ves_json_integer(&json, "band", c->facts[k].band);
+        ves_json_integer(&json, "modes", c->facts[k].modes);
+        ves_json_number(&json, "tail", c->facts[k].tail);
+        ves_json_end(&json, '}');
+    }
+    ves_json_end(&json, '}');
+    ves_json_number(&json, "evaluation_s", c->value_time);
+    ves_json_number(&json, "gradient_s", c->gradient_time);
+    ves_json_end(&json, '}');
+}
+
+static int report(app *a, checked *c)
+{
+    ves_status status = look(a, c);
+    if (status != VES_OK) return app_fail(a, status, "%s", ves_status_text(status));
+    if (a->options.json) {
+        json_print(c);
+    } else {
+        heading(c);
+        variables(c);
+        patches(c);
+        printf("  start design\n\n");
+        app_screen_design(c->run->problem, &c->run->best, stdout);
+        costs(c);
+    }
+    return c->run->any ? APP_DONE : APP_UNMET;
+}
+
+int app_check(app *a)
+{
+    ves_opened opened;
+    checked c = {0};
+    ves_run *run;
+    int code;
+    if (!app_open(a, &opened, &code)) return code;
+    const ves_run_options options = {.once = true, .prove = true};
+    ves_status status = ves_study_run(opened.problem, &options, NULL, &run, a->diag);
+    app_say(a);
+    code = app_code(status);
+    if (run) {
+        c.run = run;
+        code = report(a, &c);
+        ves_run_destroy(run);
+    }
+    ves_study_close(&opened);
+    return code;
+}

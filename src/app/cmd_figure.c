@@ -1,0 +1,106 @@
+/* vesica export, vesica show: the shape as files. */
+#include <string.h>
+
+#include "app/shape.h"
+#include "base/text.h"
+#include "study/folder.h"
+
+enum { WORDS = 16, NAMES = 64 };
+
+static int unknown_format(app *a, const char *word)
+{
+    static const char later[] = "glb|step|inp";
+    const char *name[NAMES];
+    int count = 0;
+    if (ves_words_find(later, word) >= 0)
+        return app_fail(a, VES_ABSENT, "this version of vesica (%s) does not write %s yet", VESICA_VERSION,
+                        word);
+    for (const ves_format *const *f = ves_formats(); *f && count < NAMES; f++) name[count++] = (*f)->name;
+    int near = ves_text_nearest(word, name, count);
+    if (near >= 0) return app_fail(a, VES_USAGE, "no format \"%s\", did you mean \"%s\"?", word, name[near]);
+    return app_fail(a, VES_USAGE, "no format \"%s\" (vesica list formats)", word);
+}
+
+/* "vtp,stl": all must be known before the first is written. */
+static int formats_read(app *a, const ves_format **format, int *count)
+{
+    char *list = ves_arena_text(&a->arena, a->options.to, strlen(a->options.to));
+    if (!list) return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
+    for (char *word = list, *comma; word; word = comma ? comma + 1 : NULL) {
+        comma = strchr(word, ',');
+        if (comma) *comma = 0;
+        const ves_format *f = ves_format_find(word);
+        if (!f) return unknown_format(a, word);
+        if (*count == WORDS) return app_fail(a, VES_USAGE, "too many formats in \"%s\"", a->options.to);
+        format[(*count)++] = f;
+    }
+    return APP_DONE;
+}
+
+/* DIR/NAME, DIR made when it is not there. */
+static char *stem_of(app *a, const char *name, int *code)
+{
+    const char *folder = a->options.out;
+    if (!folder) return ves_arena_text(&a->arena, name, strlen(name));
+    if (ves_folder_open(folder, &a->arena, a->diag) != VES_OK) {
+        *code = APP_MISSING;
+        return NULL;
+    }
+    return ves_folder_path(folder, name, &a->arena);
+}
+
+static int write_all(app *a, ves_figure *figure, const char *stem, const ves_format **format, int count)
+{
+    for (int k = 0; k < count; k++) {
+        char *path = ves_folder_free(stem, format[k]->name, &a->arena);
+        if (!path) return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
+        ves_status status = format[k]->write(figure, path, a->diag);
+        if (status != VES_OK) return app_code(status);
+        printf("%s\n", path);
+    }
+    return APP_DONE;
+}
+
+int app_export(app *a)
+{
+    app_shape shape;
+    const ves_format *format[WORDS];
+    int code = APP_DONE, count = 0;
+    if (!a->options.to)
+        return app_fail(a, VES_USAGE, "vesica export needs --to FORMAT (vesica list formats)");
+    code = formats_read(a, format, &count);
+    if (code != APP_DONE || !app_shape_open(a, &shape, &code)) return code;
+    ves_figure *figure = app_shape_figure(a, &shape, &code);
+    char *stem = figure ? stem_of(a, shape.opened.name, &code) : NULL;
+    if (stem) code = write_all(a, figure, stem, format, count);
+    ves_figure_destroy(figure);
+    app_shape_close(&shape);
+    return code;
+}
+
+static ves_view view_of(const app_options *o)
+{
+    ves_view view = ves_view_default();
+    if (o->colour) view.colour = o->colour;
+    if (o->viewed) view.azimuth = o->view[0], view.height_angle = o->view[1];
+    return view;
+}
+
+int app_show(app *a)
+{
+    app_shape shape;
+    int code;
+    if (!app_shape_open(a, &shape, &code)) return code;
+    ves_figure *figure = app_shape_figure(a, &shape, &code);
+    if (figure) {
+        ves_view view = view_of(&a->options);
+        const char *path =
+            a->options.png ? a->options.png : ves_folder_free(shape.opened.name, "png", &a->arena);
+        ves_status status = path ? ves_picture_write(figure, &view, path, a->diag) : VES_MEMORY;
+        code = app_code(status);
+        if (status == VES_OK) printf("%s\n", path);
+    }
+    ves_figure_destroy(figure);
+    app_shape_close(&shape);
+    return code;
+}

@@ -1,0 +1,283 @@
+/* Options: one table says how each is written, what it is for, and how it is read. */
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "app/app.h"
+#include "base/text.h"
+
+enum { OPTIONS = 64 };
+
+typedef struct option {
+    const char *name, *argument; /* argument NULL: it takes none */
+    const char *about;
+    bool (*take)(app *a, const char *value); /* false: a message is in diag */
+} option;
+
+static bool wrong(app *a, const char *format, const char *value)
+{
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral"
+    app_fail(a, VES_USAGE, format, value);
+#pragma GCC diagnostic pop
+    return false;
+}
+
+static bool whole(const char *text, long least, long most, long *value)
+{
+    char *end;
+    errno = 0;
+    *value = strtol(text, &end, 10);
+    return *text && !*end && !errno && *value >= least && *value <= most;
+}
+
+static bool take_set(app *a, const char *value)
+{
+    app_options *o = &a->options;
+    const char *equals = strchr(value, '=');
+    if (!equals || equals == value) return wrong(a, "--set needs name=value, got \"%s\"", value);
+    if (o->sets == APP_SETS) return wrong(a, "too many --set, at \"%s\"", value);
+    const char *name = ves_arena_text(&a->arena, value, (size_t)(equals - value));
+    o->set[o->sets++] = (ves_override){name, equals + 1};
+    return name || wrong(a, "%s", ves_status_text(VES_MEMORY));
+}
+
+static bool take_seed(app *a, const char *value)
+{
+    long seed;
+    if (!whole(value, 0, 1L << 53, &seed))
+        return wrong(a, "--seed needs a whole number from 0 to 2^53, got \"%s\"", value);
+    a->options.seed = (uint64_t)seed;
+    return a->options.seeded = true;
+}
+
+static bool take_evaluations(app *a, const char *value)
+{
+    return whole(value, 1, 1L << 53, &a->options.evaluations) ||
+           wrong(a, "--evaluations needs a whole number from 1 on, got \"%s\"", value);
+}
+
+static bool take_jobs(app *a, const char *value)
+{
+    long jobs;
+    if (!whole(value, 1, 256, &jobs))
+        return wrong(a, "--jobs needs a whole number from 1 to 256, got \"%s\"", value);
+    a->options.jobs = (int)jobs;
+    return true;
+}
+
+static bool take_spine(app *a, const char *value)
+{
+    long count;
+    if (!whole(value, 2, 1000000, &count))
+        return wrong(a, "--spine needs a whole number from 2 to 1000000, got \"%s\"", value);
+    a->options.spine = (int)count;
+    return true;
+}
+
+static bool take_grid(app *a, const char *value)
+{
+    char *end;
+    long nu = strtol(value, &end, 10), nv = *end == 'x' ? strtol(end + 1, &end, 10) : 0;
+    bool good = !*end && nu >= 1 && nu <= 10000 && nv >= 3 && nv <= 10000;
+    a->options.grid[0] = (int)nu, a->options.grid[1] = (int)nv;
+    return good ||
+           wrong(a, "--grid needs cells along u and v as 48x96 (1 to 10000, 3 to 10000), got \"%s\"", value);
+}
+
+static bool take_view(app *a, const char *value)
+{
+    double angle[2];
+    char *copy = ves_arena_text(&a->arena, value, strlen(value)), *comma = copy ? strchr(copy, ',') : NULL;
+    if (comma) *comma = 0;
+    if (!comma || !ves_text_number(copy, &angle[0]) || !ves_text_number(comma + 1, &angle[1]))
+        return wrong(a, "--view needs azimuth,height in degrees as 35,25, got \"%s\"", value);
+    for (int k = 0; k < 2; k++) a->options.view[k] = angle[k] * 3.14159265358979323846 / 180;
+    return a->options.viewed = true;
+}
+
+static bool take_progress(app *a, const char *value)
+{
+    int word = ves_words_find("auto|plain|none", value);
+    a->options.progress = (ves_progress_style)word;
+    return word >= 0 || wrong(a, "--progress is auto, plain or none, not \"%s\"", value);
+}
+
+static bool take_trace(app *a, const char *value)
+{
+    int word = ves_words_find("all|accepted|none", value);
+    a->options.trace = (ves_trace)word;
+    return word >= 0 || wrong(a, "--trace is all, accepted or none, not \"%s\"", value);
+}
+
+static bool take_colour(app *a, const char *value)
+{
+    a->options.colour = value;
+    return ves_words_find("patch|H|K|k1|k2", value) >= 0 ||
+           wrong(a, "--colour is patch, H, K, k1 or k2, not \"%s\"", value);
+}
+
+static bool take_plugin(app *a, const char *value)
+{
+    app_options *o = &a->options;
+    if (o->plugins == APP_PLUGINS) return wrong(a, "too many --plugin, at \"%s\"", value);
+    o->plugin[o->plugins++] = value;
+    return true;
+}
+
+static bool take_resume(app *a, const char *value)
+{
+    (void)value;
+    app_fail(a, VES_ABSENT, "--resume: this version of vesica (%s) cannot go on with an interrupted run yet",
+             VESICA_VERSION);
+    return false;
+}
+
+#define TEXT(field)                                                                                          \
+    static bool take_##field(app *a, const char *value)                                                      \
+    {                                                                                                        \
+        a->options.field = value;                                                                            \
+        return *value || wrong(a, "--%s needs a value", #field);                                             \
+    }
+TEXT(start)
+TEXT(out)
+TEXT(patch)
+TEXT(points)
+TEXT(to)
+TEXT(png)
+#undef TEXT
+
+#define FLAG(field)                                                                                          \
+    static bool take_##field(app *a, const char *value)                                                      \
+    {                                                                                                        \
+        (void)value;                                                                                         \
+        return a->options.field = true;                                                                      \
+    }
+FLAG(json)
+FLAG(test)
+FLAG(no_files)
+FLAG(reference)
+FLAG(help)
+#undef FLAG
+
+/* clang-format off */
+static const option table[] = {
+    {"set", "NAME=VALUE", "instead of what the file says: the start of a variable, a parameter, or a path of keys (patches.wall.operator.a)", take_set},
+    {"start", "RUN", "begin at the best design of that run", take_start},
+    {"seed", "N", "of the random numbers; same seed, same result", take_seed},
+    {"evaluations", "N", "budget of the search", take_evaluations},
+    {"jobs", "N", "threads (all of the machine); the result does not depend on it", take_jobs},
+    {"out", "DIR", "write into this folder, new or empty for a run", take_out},
+    {"progress", "auto|plain|none", "how to show it on stderr", take_progress},
+    {"trace", "all|accepted|none", "which candidates trace.jsonl keeps", take_trace},
+    {"test", NULL, "with the budget and the checks that `test:` gives", take_test},
+    {"no-files", NULL, "make no run folder", take_no_files},
+    {"json", NULL, "one JSON object on stdout", take_json},
+    {"plugin", "FILE", "load measures from a shared object; may be repeated", take_plugin},
+    {"patch", "NAME", "which patch (needed when there are several)", take_patch},
+    {"points", "FILE", "CSV of u, v; - is stdin", take_points},
+    {"spine", "N", "N points of the spine, the mean over v: CSV u, x, y, z", take_spine},
+    {"to", "FORMAT[,FORMAT]", "see vesica list formats", take_to},
+    {"grid", "NUxNV", "cells along u and v of each patch", take_grid},
+    {"png", "FILE", "where to; the ending png, svg or pdf says what (NAME.png)", take_png},
+    {"colour", "patch|H|K|k1|k2", "what the colours show", take_colour},
+    {"view", "AZIMUTH,HEIGHT", "where the viewer stands, in degrees", take_view},
+    {"reference", NULL, "the reference chapter of the manual instead, in Markdown", take_reference},
+    {"help", NULL, "this text", take_help},
+    {"resume", "RUN", NULL, take_resume},
+};
+/* clang-format on */
+
+enum { KNOWN = sizeof table / sizeof *table };
+
+static bool belongs(const app_command *command, const option *o)
+{
+    return !strcmp(o->name, "help") || ves_words_find(command->options, o->name) >= 0 ||
+           (!o->about && !strcmp(command->name, "run"));
+}
+
+static int unknown(app *a, const app_command *command, const char *word, size_t length)
+{
+    const char *name[KNOWN], *text = ves_arena_text(&a->arena, word, length);
+    int count = 0;
+    for (int k = 0; k < KNOWN; k++)
+        if (belongs(command, &table[k]) && table[k].about) name[count++] = table[k].name;
+    int near = text ? ves_text_nearest(text, name, count) : -1;
+    if (near >= 0)
+        return app_fail(a, VES_USAGE, "vesica %s has no option \"--%s\", did you mean \"--%s\"?",
+                        command->name, text, name[near]);
+    return app_fail(a, VES_USAGE, "vesica %s has no option \"--%.*s\" (vesica help %s)", command->name,
+                    (int)length, word, command->name);
+}
+
+static const option *find(const app_command *command, const char *word, size_t length)
+{
+    for (int k = 0; k < KNOWN; k++) {
+        bool same = strlen(table[k].name) == length && !strncmp(table[k].name, word, length);
+        if (same && belongs(command, &table[k])) return &table[k];
+    }
+    return NULL;
+}
+
+/* One option at word[*at], with or without its value in the same word. */
+static bool option_read(app *a, const app_command *command, int count, char **word, int *at)
+{
+    const char *name = word[*at] + 2, *equals = strchr(name, '=');
+    size_t length = equals ? (size_t)(equals - name) : strlen(name);
+    const option *o = find(command, name, length);
+    if (!o) return unknown(a, command, name, length), false;
+    if (!o->argument && equals) return wrong(a, "--%s takes no value", o->name);
+    if (!o->argument) return o->take(a, "");
+    if (equals) return o->take(a, equals + 1);
+    if (*at + 1 >= count) {
+        app_fail(a, VES_USAGE, "--%s needs a value: --%s %s", o->name, o->name, o->argument);
+        return false;
+    }
+    return o->take(a, word[++*at]);
+}
+
+static bool operand_read(app *a, const app_command *command, const char *word)
+{
+    if (a->operands < command->most) {
+        a->operand[a->operands++] = word;
+        return true;
+    }
+    app_fail(a, VES_USAGE, "what is \"%s\" for? usage: vesica %s", word, command->usage);
+    return false;
+}
+
+bool app_options_read(app *a, const app_command *command, int count, char **word, int *code)
+{
+    bool options = true, good = true;
+    for (int k = 0; k < count && good; k++) {
+        bool dashes = options && word[k][0] == '-' && word[k][1];
+        if (dashes && !strcmp(word[k], "--"))
+            options = false;
+        else if (dashes && !strcmp(word[k], "-h"))
+            a->options.help = true;
+        else if (dashes && word[k][1] != '-')
+            good = wrong(a, "options begin with two dashes, got \"%s\"", word[k]);
+        else
+            good = dashes ? option_read(a, command, count, word, &k) : operand_read(a, command, word[k]);
+    }
+    if (good && !a->options.help && a->operands < command->least) {
+        app_fail(a, VES_USAGE, "something is missing: vesica %s", command->usage);
+        good = false;
+    }
+    int last = ves_diag_count(a->diag) - 1;
+    *code = good ? APP_DONE : app_code(ves_diag_status(a->diag, last));
+    return good;
+}
+
+void app_options_list(const app_command *command, FILE *out)
+{
+    for (int k = 0; k < KNOWN; k++) {
+        const option *o = &table[k];
+        char text[80];
+        if (!o->about || !belongs(command, o) || !strcmp(o->name, "help")) continue;
+        snprintf(text, sizeof text, "--%s%s%s", o->name, o->argument ? " " : "",
+                 o->argument ? o->argument : "");
+        fprintf(out, "  %-28s %s\n", text, o->about);
+    }
+}

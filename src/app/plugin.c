@@ -1,0 +1,80 @@
+/* Plugins: measures from shared objects. */
+#include <dlfcn.h>
+#include <string.h>
+
+#include "app/app.h"
+#include "measure/registry.h"
+
+static int listed(const ves_plugin *plugin)
+{
+    int count = 0;
+    while (plugin->measure && plugin->measure[count]) count++;
+    return count;
+}
+
+/* dlopen looks for a bare name in the system's folders; people mean a file here. */
+static const char *as_file(app *a, const char *path)
+{
+    return strchr(path, '/') ? path : ves_arena_format(&a->arena, "./%s", path);
+}
+
+static ves_status open_one(app *a, const char *path, const ves_plugin **plugin)
+{
+    const char *file = as_file(a, path);
+    void *handle = file ? dlopen(file, RTLD_NOW | RTLD_LOCAL) : NULL;
+    if (!handle) {
+        const char *why = dlerror();
+        app_fail(a, VES_USAGE, "cannot load the plugin \"%s\": %s", path, why ? why : "out of memory");
+        return VES_USAGE;
+    }
+    a->handle[a->shared++] = handle;
+    *plugin = dlsym(handle, "ves_plugin_entry");
+    if (!*plugin) {
+        app_fail(a, VES_USAGE, "\"%s\" is no plugin of vesica: it has no ves_plugin_entry", path);
+        return VES_USAGE;
+    }
+    if ((*plugin)->abi == VES_ABI) return VES_OK;
+    app_fail(
+        a, VES_ABSENT,
+        "the plugin \"%s\" was built for interface %d; this is vesica %s with interface %d: build it again",
+        path, (*plugin)->abi, VESICA_VERSION, VES_ABI);
+    return VES_ABSENT;
+}
+
+static ves_status add(app *a, const char *path, const ves_plugin *plugin, int *count)
+{
+    for (int k = 0; k < listed(plugin); k++) {
+        const ves_measure *m = plugin->measure[k];
+        if (ves_measure_find(m->name, a->measure)) {
+            app_fail(a, VES_USAGE,
+                     "the plugin \"%s\" brings a measure \"%s\", but there is one of that name already", path,
+                     m->name);
+            return VES_USAGE;
+        }
+        a->measure[(*count)++] = m;
+    }
+    return VES_OK;
+}
+
+ves_status app_plugins_load(app *a)
+{
+    const ves_plugin *plugin[APP_PLUGINS];
+    int total = 0, count = 0;
+    for (int k = 0; k < a->options.plugins; k++) {
+        VES_TRY(open_one(a, a->options.plugin[k], &plugin[k]));
+        total += listed(plugin[k]);
+    }
+    if (!a->options.plugins) return VES_OK;
+    a->measure = ves_arena_take(&a->arena, (size_t)total + 1, sizeof *a->measure);
+    if (!a->measure) {
+        app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
+        return VES_MEMORY;
+    }
+    for (int k = 0; k < a->options.plugins; k++) VES_TRY(add(a, a->options.plugin[k], plugin[k], &count));
+    return VES_OK;
+}
+
+void app_plugins_close(app *a)
+{
+    while (a->shared > 0) dlclose(a->handle[--a->shared]);
+}

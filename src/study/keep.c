@@ -1,0 +1,133 @@
+#include "study/keep.h"
+
+#include <string.h>
+
+#include "output/file.h"
+#include "output/output.h"
+#include "study/folder.h"
+#include "study/result.h"
+
+enum { MESSAGE = 4096 };
+
+typedef struct keeper {
+    ves_run *run;
+    ves_plan *plan;
+    ves_diag *diag;
+} keeper;
+
+static ves_status no_memory(ves_diag *diag)
+{
+    return ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s", ves_status_text(VES_MEMORY));
+}
+
+/* One whole file of text, written by `fill`. */
+static ves_status text_write(const keeper *k, const char *name, const char *ending,
+                             void (*fill)(const keeper *, FILE *))
+{
+    ves_file file;
+    char *path = ves_folder_path(k->run->folder, name, &k->run->arena);
+    if (!path) return no_memory(k->diag);
+    VES_TRY(ves_file_begin(&file, path, ending, k->diag));
+    fill(k, file.out);
+    return ves_file_end(&file, VES_OK, k->diag);
+}
+
+static void put(FILE *out, const char *text)
+{
+    fwrite(text, 1, strlen(text), out);
+}
+
+static void fill_problem(const keeper *k, FILE *out)
+{
+    put(out, k->run->problem->text);
+}
+
+static void fill_result(const keeper *k, FILE *out)
+{
+    ves_json json = {.out = out};
+    ves_json_object(&json, NULL);
+    ves_result_write(k->run, &json);
+    ves_json_end(&json, '}');
+}
+
+static void fill_times(const keeper *k, FILE *out)
+{
+    ves_json json = {.out = out};
+    ves_json_object(&json, NULL);
+    ves_result_times(k->run, &json);
+    ves_json_end(&json, '}');
+}
+
+static void line(FILE *out, const char *label, const char *text)
+{
+    put(out, label);
+    put(out, text);
+    put(out, "\n");
+}
+
+static void fill_log(const keeper *k, FILE *out)
+{
+    const ves_run *run = k->run;
+    char text[MESSAGE];
+    line(out, run->problem->path, "");
+    line(out, "started ", run->times.started);
+    snprintf(text, sizeof text, "seed %llu, %d jobs, %d x %d nodes a patch, %ld evaluations",
+             (unsigned long long)run->seed, run->jobs, run->quadrature[0], run->quadrature[1],
+             run->evaluations);
+    line(out, text, "");
+    for (int i = 0; i < ves_diag_count(k->diag); i++) {
+        ves_diag_text(k->diag, i, text, sizeof text);
+        line(out, text, "");
+    }
+    for (int i = 0; i < run->notes; i++) line(out, "note: ", run->note[i]);
+    line(out, "stopped: ", run->stop);
+}
+
+ves_status ves_keep_problem(ves_run *run, ves_diag *diag)
+{
+    keeper k = {.run = run, .diag = diag};
+    return text_write(&k, "problem.yaml", "yaml", fill_problem);
+}
+
+static ves_status shape_write(const keeper *k, ves_figure *figure, const char *name)
+{
+    char *path = ves_folder_path(k->run->folder, name, &k->run->arena);
+    return path ? ves_format_find("vtp")->write(figure, path, k->diag) : no_memory(k->diag);
+}
+
+static ves_status picture_write(const keeper *k, ves_figure *figure)
+{
+    ves_view view = ves_view_default();
+    char *path = ves_folder_path(k->run->folder, "best.png", &k->run->arena);
+    return path ? ves_picture_write(figure, &view, path, k->diag) : no_memory(k->diag);
+}
+
+/* The shape of one design; nothing for one that has no shape. */
+static ves_status figure_write(const keeper *k, const ves_design *design, const char *name, bool picture)
+{
+    ves_figure *figure;
+    if (design->status != VES_OK) return VES_OK;
+    ves_status status = ves_plan_figure(k->plan, design->x, 0, 0, &figure, k->diag);
+    if (status != VES_OK) return status == VES_MEMORY ? no_memory(k->diag) : status;
+    status = shape_write(k, figure, name);
+    if (status == VES_OK && picture) status = picture_write(k, figure);
+    ves_figure_destroy(figure);
+    return status;
+}
+
+ves_status ves_keep_result(ves_run *run, ves_plan *plan, ves_diag *diag)
+{
+    keeper k = {run, plan, diag};
+    ves_status status[] = {
+        text_write(&k, "result.json", "json", fill_result),
+        text_write(&k, "times.json", "json", fill_times),
+        figure_write(&k, &run->start, "start.vtp", false),
+        run->any ? figure_write(&k, &run->best, "best.vtp", true) : VES_OK,
+        VES_OK,
+    };
+    enum { LOG = sizeof status / sizeof *status - 1 };
+    status[LOG] = text_write(&k, "log.txt", "txt", fill_log);
+    for (int i = 0; i <= LOG; i++)
+        if (status[i] < VES_OK) return status[i];
+    return VES_OK;
+}

@@ -1,0 +1,203 @@
+#include "study/open.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "problem/tree.h"
+#include "study/folder.h"
+
+enum { LIMIT = 64 * 1024 * 1024, NUMBER = 96 };
+
+/* The best design that a run folder keeps: names and numbers as they are written there. */
+typedef struct best {
+    const char *run;
+    const ves_node *variables;
+} best;
+
+static const ves_mark NOWHERE = {0};
+
+static ves_status no_memory(ves_diag *diag)
+{
+    return ves_diag_add(diag, VES_ERROR, VES_MEMORY, NOWHERE, "%s", ves_status_text(VES_MEMORY));
+}
+
+/* --- result.json --- */
+
+static ves_status file_length(FILE *file, size_t *length)
+{
+    if (fseek(file, 0, SEEK_END)) return VES_IO;
+    long end = ftell(file);
+    rewind(file);
+    *length = (size_t)end;
+    return end >= 0 && end <= LIMIT ? VES_OK : VES_IO;
+}
+
+static ves_status load(const char *path, ves_arena *arena, char **text, size_t *length)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file) return VES_IO;
+    ves_status status = file_length(file, length);
+    if (status == VES_OK) {
+        *text = ves_arena_take(arena, *length + 1, 1);
+        if (!*text) status = VES_MEMORY;
+    }
+    if (status == VES_OK && fread(*text, 1, *length, file) != *length) status = VES_IO;
+    fclose(file);
+    return status;
+}
+
+/* JSON is YAML. */
+static const ves_node *parse(const char *text, size_t length, ves_arena *arena)
+{
+    ves_script *script = ves_arena_take(arena, 1, sizeof *script);
+    const ves_node *root = NULL;
+    if (!script || ves_script_init(script, text, length, arena) != VES_OK) return NULL;
+    if (ves_tree_read(script, arena, &root, NULL) != VES_OK || !root || root->kind != VES_NODE_MAP)
+        return NULL;
+    return ves_node_find(root, "variables");
+}
+
+static ves_status best_read(const char *run, ves_arena *arena, best *out, ves_diag *diag)
+{
+    char *path = ves_folder_path(run, "result.json", arena), *text = NULL;
+    size_t length = 0;
+    *out = (best){.run = run};
+    if (!path) return no_memory(diag);
+    ves_status status = load(path, arena, &text, &length);
+    if (status == VES_MEMORY) return no_memory(diag);
+    if (status != VES_OK)
+        return ves_diag_add(diag, VES_ERROR, VES_IO, NOWHERE,
+                            "\"%s\" is not the folder of a finished run: \"%s\" cannot be read", run, path);
+    out->variables = parse(text, length, arena);
+    if (out->variables && out->variables->kind == VES_NODE_MAP) return VES_OK;
+    return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE, "\"%s\" holds no variables", path);
+}
+
+/* --- its numbers as overrides --- */
+
+/* A number with a dimension must say it: 0.0345 m. */
+static const char *with_unit(const ves_node *number, ves_dim dim, ves_arena *arena)
+{
+    char unit[48];
+    ves_dim_text(dim, unit);
+    if (dim.any || !strcmp(unit, "1")) return number->text;
+    return ves_arena_format(arena, "%s %s", number->text, unit);
+}
+
+static bool is_number(const ves_node *node)
+{
+    double value;
+    return node->kind == VES_NODE_WORD && ves_text_number(node->text, &value);
+}
+
+static ves_status missing(const best *b, const ves_problem *problem, ves_arena *arena, ves_diag *diag)
+{
+    char *list = ves_arena_text(arena, "", 0);
+    for (int k = 0; list && k < problem->variables; k++) {
+        const char *name = problem->variable[k].name;
+        if (!ves_node_find(b->variables, name))
+            list = ves_arena_format(arena, "%s%s\"%s\"", list, *list ? ", " : "", name);
+    }
+    if (!list) return no_memory(diag);
+    return ves_diag_add(diag, VES_ERROR, VES_NAME, NOWHERE,
+                        "the run \"%s\" has no variable %s: a start needs all variables of the problem",
+                        b->run, list);
+}
+
+/* Appends one override for each variable of the problem. */
+static ves_status best_apply(const best *b, const ves_problem *problem, ves_arena *arena,
+                             ves_override *override, ves_diag *diag)
+{
+    for (int k = 0; k < problem->variables; k++) {
+        const ves_variable *v = &problem->variable[k];
+        const ves_node *number = ves_node_find(b->variables, v->name);
+        if (!number) return missing(b, problem, arena, diag);
+        if (!is_number(number))
+            return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE,
+                                "the run \"%s\" has no number for \"%s\"", b->run, v->name);
+        override[k] = (ves_override){v->name, with_unit(number, v->dim, arena)};
+        if (!override[k].value) return no_memory(diag);
+    }
+    return VES_OK;
+}
+
+/* Reads the problem twice: first to learn its variables and their dimensions. */
+static ves_status read_at(const char *file, const best *b, const ves_read_options *read, ves_opened *opened,
+                          ves_diag *diag)
+{
+    ves_arena *arena = &opened->arena;
+    ves_problem *first = NULL;
+    ves_diag *quiet = ves_diag_create();
+    if (!quiet) return no_memory(diag);
+    ves_status status = ves_problem_read(file, read, &first, quiet);
+    ves_diag_destroy(quiet);
+    if (status != VES_OK) return ves_problem_read(file, read, &opened->problem, diag);
+    int count = first->variables;
+    ves_override *all = ves_arena_take(arena, (size_t)(count + read->overrides), sizeof *all);
+    if (!all) status = no_memory(diag);
+    if (status == VES_OK) status = best_apply(b, first, arena, all, diag);
+    if (status == VES_OK) {
+        for (int k = 0; k < read->overrides; k++) all[count + k] = read->override[k];
+        ves_read_options options = {count + read->overrides, all, read->plugin};
+        status = ves_problem_read(file, &options, &opened->problem, diag);
+    }
+    ves_problem_destroy(first);
+    return status;
+}
+
+/* --- opening --- */
+
+/* The last part of a path, without slashes at its end. */
+static const char *last_part(const char *path, ves_arena *arena)
+{
+    size_t end = strlen(path);
+    while (end > 1 && path[end - 1] == '/') end--;
+    size_t begin = end;
+    while (begin > 0 && path[begin - 1] != '/') begin--;
+    return ves_arena_text(arena, path + begin, end - begin);
+}
+
+static ves_status open_run(const char *path, const ves_open_options *options, ves_opened *opened,
+                           ves_diag *diag)
+{
+    best b;
+    const char *file = ves_folder_path(path, "problem.yaml", &opened->arena);
+    opened->name = last_part(path, &opened->arena);
+    if (!file || !opened->name) return no_memory(diag);
+    VES_TRY(best_read(options->start ? options->start : path, &opened->arena, &b, diag));
+    return read_at(file, &b, &options->read, opened, diag);
+}
+
+static ves_status open_file(const char *path, const ves_open_options *options, ves_opened *opened,
+                            ves_diag *diag)
+{
+    best b;
+    if (options->start) {
+        VES_TRY(best_read(options->start, &opened->arena, &b, diag));
+        VES_TRY(read_at(path, &b, &options->read, opened, diag));
+    } else {
+        VES_TRY(ves_problem_read(path, &options->read, &opened->problem, diag));
+    }
+    opened->name = opened->problem->name;
+    return VES_OK;
+}
+
+ves_status ves_study_open(const char *path, const ves_open_options *options, ves_opened *opened,
+                          ves_diag *diag)
+{
+    *opened = (ves_opened){0};
+    ves_status status =
+        ves_folder_is(path) ? open_run(path, options, opened, diag) : open_file(path, options, opened, diag);
+    if (status == VES_OK) return status;
+    ves_study_close(opened);
+    return ves_diag_errors(diag) ? status
+                                 : no_memory(diag); /* who has no memory may have had none to say so */
+}
+
+void ves_study_close(ves_opened *opened)
+{
+    ves_problem_destroy(opened->problem);
+    ves_arena_destroy(&opened->arena);
+    *opened = (ves_opened){0};
+}

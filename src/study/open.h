@@ -1,0 +1,23 @@
+/* Opening what a user names: a problem file, or a run folder, which is its problem at the best design. */
+#ifndef VES_STUDY_OPEN_H
+#define VES_STUDY_OPEN_H
+
+#include "problem/problem.h"
+
+typedef struct ves_open_options {
+    ves_read_options read; /* overrides come after those of a run */
+    const char *start;     /* a run whose best design is the start, or NULL */
+} ves_open_options;
+
+typedef struct ves_opened {
+    ves_arena arena;
+    ves_problem *problem;
+    const char *name; /* for files made from it: that of the problem file, or of the run folder */
+} ves_opened;
+
+/* On failure there is nothing to close. */
+ves_status ves_study_open(const char *path, const ves_open_options *options, ves_opened *opened,
+                          ves_diag *diag);
+void ves_study_close(ves_opened *opened);
+
+#endif

@@ -1,0 +1,178 @@
+#include "study/result.h"
+
+#include <math.h>
+
+static void variables(const ves_problem *problem, const double *x, ves_json *json)
+{
+    ves_json_object(json, "variables");
+    for (int k = 0; k < problem->variables; k++) ves_json_number(json, problem->variable[k].name, x[k]);
+    ves_json_end(json, '}');
+}
+
+static void measures(const ves_problem *problem, const ves_design *design, ves_json *json)
+{
+    ves_json_object(json, "measures");
+    for (int k = 0; k < problem->measures; k++)
+        ves_json_number(json, problem->measure[k].name, design->measure[k]);
+    ves_json_end(json, '}');
+}
+
+static void constraints(const ves_problem *problem, const ves_design *design, ves_json *json)
+{
+    ves_json_array(json, "constraints");
+    for (int k = 0; k < problem->constraints; k++) {
+        const ves_sides *s = &design->side[k];
+        ves_json_object(json, NULL);
+        ves_json_text(json, "text", problem->constraint[k].text);
+        ves_json_number(json, "value", s->value);
+        ves_json_number(json, "limit", s->limit);
+        ves_json_number(json, "violation", s->violation);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+}
+
+/* What solve: found. */
+static void unknown(const ves_problem *problem, const ves_design *design, ves_json *json)
+{
+    if (!problem->solve) return;
+    ves_json_object(json, "unknown");
+    ves_json_number(json, problem->solve->name,
+                    design->status == VES_OK ? design->slot[problem->variables] : NAN);
+    ves_json_end(json, '}');
+}
+
+void ves_result_design(const ves_problem *problem, const ves_design *design, ves_json *json)
+{
+    variables(problem, design->x, json);
+    measures(problem, design, json);
+    ves_json_number(json, "objective", design->objective);
+    ves_json_number(json, "violation", design->violation);
+    ves_json_flag(json, "feasible", design->feasible);
+    constraints(problem, design, json);
+    unknown(problem, design, json);
+    if (problem->scale) ves_json_number(json, "scale", design->similarity);
+    if (design->status != VES_OK) ves_json_text(json, "status", ves_status_text(design->status));
+}
+
+static void grids(const ves_run *run, ves_json *json)
+{
+    ves_json_object(json, "quadrature");
+    ves_json_integer(json, "u", run->quadrature[0]);
+    ves_json_integer(json, "v", run->quadrature[1]);
+    ves_json_number(json, "change", run->change);
+    ves_json_end(json, '}');
+    ves_json_object(json, "finer");
+    ves_json_number(json, "objective", run->finer.objective);
+    measures(run->problem, &run->finer, json);
+    ves_json_number(json, "change", run->finer_change);
+    ves_json_end(json, '}');
+}
+
+static void start(const ves_run *run, ves_json *json)
+{
+    ves_json_object(json, "start");
+    ves_json_number(json, "objective", run->start.objective);
+    ves_json_number(json, "violation", run->start.violation);
+    variables(run->problem, run->start.x, json);
+    measures(run->problem, &run->start, json);
+    ves_json_end(json, '}');
+}
+
+static void optima(const ves_run *run, ves_json *json)
+{
+    ves_json_array(json, "optima");
+    for (int k = 0; k < run->optima; k++) {
+        const ves_run_optimum *o = &run->optimum[k];
+        ves_json_object(json, NULL);
+        ves_json_number(json, "value", o->value);
+        ves_json_number(json, "violation", o->violation);
+        ves_json_integer(json, "hits", o->hits);
+        ves_json_flag(json, "saddle", o->saddle);
+        variables(run->problem, o->x, json);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+}
+
+static void sentences(const ves_run *run, ves_json *json)
+{
+    ves_json_array(json, "notes");
+    for (int k = 0; k < run->notes; k++) ves_json_text(json, NULL, run->note[k]);
+    ves_json_end(json, ']');
+    ves_json_array(json, "expect");
+    for (int k = 0; k < run->expects; k++) {
+        ves_json_object(json, NULL);
+        ves_json_text(json, "text", run->expect[k].text);
+        ves_json_flag(json, "passed", run->expect[k].passed);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+}
+
+static void statistics(const ves_run *run, ves_json *json)
+{
+    ves_json_object(json, "failed");
+    for (int k = 0; k < VES_RUN_KINDS; k++)
+        if (run->failed[k]) ves_json_integer(json, ves_status_text((ves_status)k), run->failed[k]);
+    ves_json_end(json, '}');
+    ves_json_array(json, "temperatures");
+    for (int k = 0; k < run->temperatures; k++) {
+        const ves_temperature *t = &run->temperature[k];
+        ves_json_object(json, NULL);
+        ves_json_integer(json, "stage", t->stage);
+        ves_json_number(json, "c", t->c);
+        ves_json_integer(json, "trials", t->trials);
+        ves_json_integer(json, "accepted", t->accepted);
+        ves_json_number(json, "mean", t->mean);
+        ves_json_number(json, "variance", t->variance);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+}
+
+void ves_result_write(const ves_run *run, ves_json *json)
+{
+    const ves_problem *problem = run->problem;
+    ves_json_text(json, "title", problem->title);
+    ves_json_text(json, "goal", problem->objective_text);
+    ves_json_flag(json, "maximize", problem->maximize);
+    ves_json_number(json, "objective", run->best.objective);
+    ves_json_flag(json, "feasible", run->feasible);
+    ves_json_number(json, "violation", run->best.violation);
+    variables(problem, run->best.x, json);
+    measures(problem, &run->best, json);
+    constraints(problem, &run->best, json);
+    unknown(problem, &run->best, json);
+    if (problem->scale) ves_json_number(json, "scale", run->best.similarity);
+    ves_json_integer(json, "evaluations", run->evaluations);
+    ves_json_integer(json, "gradients", run->gradients);
+    ves_json_text(json, "stop", run->stop);
+    ves_json_integer(json, "seed", (long)run->seed);
+    ves_json_text(json, "version", VESICA_VERSION);
+    grids(run, json);
+    start(run, json);
+    optima(run, json);
+    sentences(run, json);
+    statistics(run, json);
+}
+
+void ves_result_times(const ves_run *run, ves_json *json)
+{
+    const ves_run_times *t = &run->times;
+    ves_json_text(json, "started", t->started);
+    ves_json_number(json, "wall_s", t->wall);
+    ves_json_number(json, "cpu_s", t->cpu);
+    ves_json_number(json, "search_s", t->search);
+    ves_json_integer(json, "jobs", run->jobs);
+    ves_json_integer(json, "machine_threads", t->threads);
+    ves_json_array(json, "stages");
+    for (int k = 0; k < t->stages; k++) {
+        ves_json_object(json, NULL);
+        ves_json_text(json, "name", t->stage[k].name);
+        ves_json_integer(json, "evaluations", t->stage[k].evaluations);
+        ves_json_number(json, "wall_s", t->stage[k].wall);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+}

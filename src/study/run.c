@@ -1,0 +1,467 @@
+#include "study/run.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "study/folder.h"
+#include "study/keep.h"
+#include "study/trace.h"
+
+enum { JOBS_MOST = 256, SAMPLED_LEVELS = 2 };
+
+/* A grid that changes a measure by more than this is worth a word. */
+static const double UNSETTLED = 1e-6;
+
+/* All that one study holds while it runs. */
+typedef struct study {
+    const ves_problem *problem;
+    const ves_run_options *options;
+    const ves_run_hooks *hooks;
+    ves_diag *diag;
+    ves_run *run;
+    ves_plan **plan; /* [run->jobs] */
+    ves_search_options search;
+    ves_tracer tracer;
+    double wall, cpu, mark; /* clocks: the beginning; the stage's beginning */
+    int stage;
+    ves_status files; /* the first file that could not be written */
+} study;
+
+static double seconds(clockid_t clock)
+{
+    struct timespec now;
+    clock_gettime(clock, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double ves_study_clock(void)
+{
+    return seconds(CLOCK_MONOTONIC);
+}
+
+static ves_status complain(ves_diag *diag, ves_status status)
+{
+    return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "%s", ves_status_text(status));
+}
+
+/* --- making ready --- */
+
+static bool judged(const ves_problem *p, int measure)
+{
+    bool used = p->scale && p->scale->measure == measure;
+    if (p->objective) used = used || ves_formula_uses_argument(p->objective, measure);
+    if (p->solve)
+        used = used || ves_formula_uses_argument(p->solve->left, measure) ||
+               ves_formula_uses_argument(p->solve->right, measure);
+    for (int k = 0; k < p->constraints && !used; k++)
+        used = ves_formula_uses_argument(p->constraint[k].left, measure) ||
+               ves_formula_uses_argument(p->constraint[k].right, measure);
+    return used;
+}
+
+bool ves_study_gradients(const ves_problem *problem)
+{
+    for (int k = 0; k < problem->measures; k++)
+        if (judged(problem, k) && !problem->measure[k].measure->gradient) return false;
+    return true;
+}
+
+ves_status ves_study_quadrature(const ves_problem *problem, int quadrature[2], double *change, ves_diag *diag)
+{
+    *change = NAN;
+    memcpy(quadrature, problem->quadrature, sizeof problem->quadrature);
+    if (quadrature[0] > 0 && quadrature[1] > 0) return VES_OK;
+    int chosen[2];
+    ves_status status = ves_plan_quadrature(problem, chosen, change, NULL); /* it tries many plans: */
+    for (int d = 0; d < 2; d++)
+        if (quadrature[d] <= 0) quadrature[d] = chosen[d];
+    if (status != VES_OK && status != VES_MEMORY) return VES_OK; /* the one that is used will speak */
+    return status == VES_OK ? VES_OK : complain(diag, status);
+}
+
+ves_status ves_study_plan(const ves_problem *problem, const int quadrature[2], ves_plan **plan,
+                          ves_diag *diag)
+{
+    ves_plan_options options = {.quadrature = {quadrature[0], quadrature[1]}};
+    int before = ves_diag_errors(diag);
+    ves_status status = ves_plan_create(problem, &options, plan, diag);
+    if (status < VES_OK && ves_diag_errors(diag) == before) complain(diag, status);
+    return status < VES_OK ? status : VES_OK;
+}
+
+static int machine_threads(void)
+{
+    long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count < 1 ? 1 : count > JOBS_MOST ? JOBS_MOST : (int)count;
+}
+
+static bool searches(const study *s)
+{
+    const ves_problem *p = s->problem;
+    return !s->options->once && p->variables > 0 && (p->objective || p->constraints);
+}
+
+static void settle(study *s)
+{
+    ves_run *run = s->run;
+    const ves_run_options *o = s->options;
+    s->search = o->test ? s->problem->test : s->problem->search;
+    if (o->seeded) s->search.seed = o->seed;
+    if (o->evaluations > 0) s->search.evaluations = o->evaluations;
+    run->problem = s->problem;
+    run->searched = searches(s);
+    run->seed = s->search.seed;
+    run->jobs = !run->searched ? 1 : o->jobs > 0 ? o->jobs : machine_threads();
+    if (run->jobs > JOBS_MOST) run->jobs = JOBS_MOST;
+    run->times.threads = machine_threads();
+    run->stop = s->problem->variables ? "nothing to optimize" : "nothing to vary";
+    run->change = run->finer_change = NAN;
+    time_t now = time(NULL);
+    struct tm utc;
+    if (gmtime_r(&now, &utc))
+        strftime(run->times.started, sizeof run->times.started, "%Y-%m-%dT%H:%M:%SZ", &utc);
+}
+
+static ves_status plans_make(study *s)
+{
+    ves_run *run = s->run;
+    s->plan = ves_arena_take(&run->arena, (size_t)run->jobs, sizeof(ves_plan *));
+    if (!s->plan) return complain(s->diag, VES_MEMORY);
+    VES_TRY(ves_study_quadrature(s->problem, run->quadrature, &run->change, s->diag));
+    VES_TRY(ves_study_plan(s->problem, run->quadrature, &s->plan[0], s->diag));
+    for (int k = 1; k < run->jobs; k++) {
+        ves_plan_options options = {.quadrature = {run->quadrature[0], run->quadrature[1]}};
+        ves_status status =
+            ves_plan_create(s->problem, &options, &s->plan[k], NULL); /* the first has spoken */
+        if (status < VES_OK) return complain(s->diag, status);
+    }
+    return VES_OK;
+}
+
+static ves_status measure(study *s, const double *x, int level, ves_design *design)
+{
+    ves_status status = ves_design_measure(s->plan[0], s->problem, x, level, &s->run->arena, design);
+    return status == VES_OK ? VES_OK : complain(s->diag, status);
+}
+
+static ves_status start_measure(study *s)
+{
+    ves_run *run = s->run;
+    VES_TRY(ves_design_init(s->problem, &run->arena, &run->start));
+    VES_TRY(measure(s, run->start.x, 0, &run->start));
+    if (run->start.status != VES_OK) {
+        run->change = NAN;
+        ves_diag_add(s->diag, VES_WARNING, run->start.status, (ves_mark){0},
+                     "the start design cannot be measured: %s", ves_status_text(run->start.status));
+    } else if (run->change > UNSETTLED) {
+        ves_diag_add(s->diag, VES_WARNING, VES_COARSE, (ves_mark){0},
+                     "%d x %d nodes a patch still change a measure of the start design by %.1e of its size",
+                     run->quadrature[0], run->quadrature[1], run->change);
+    }
+    return VES_OK;
+}
+
+/* --- the folder: a disk that cannot be written does not stop the search --- */
+
+static void folder_begin(study *s)
+{
+    const ves_run_options *o = s->options;
+    ves_run *run = s->run;
+    const char *name = o->name ? o->name : s->problem->name;
+    if (!o->files) return;
+    s->files =
+        o->out ? ves_folder_make(o->out, &run->arena, &run->folder, s->diag)
+               : ves_folder_number(o->parent ? o->parent : "runs", name, &run->arena, &run->folder, s->diag);
+    if (s->files != VES_OK) return;
+    s->files = ves_keep_problem(run, s->diag);
+    s->tracer = (ves_tracer){.problem = s->problem, .which = o->trace, .diag = s->diag};
+    char *path = ves_folder_path(run->folder, "trace.jsonl", &run->arena);
+    if (s->files != VES_OK || !run->searched || o->trace == VES_TRACE_NONE) return;
+    s->files = path ? ves_tracer_begin(&s->tracer, path, &run->arena) : VES_MEMORY;
+}
+
+static void folder_end(study *s)
+{
+    if (!s->run->folder) return;
+    ves_status trace = ves_tracer_end(&s->tracer), kept = ves_keep_result(s->run, s->plan[0], s->diag);
+    if (s->files == VES_OK) s->files = trace != VES_OK ? trace : kept;
+}
+
+/* --- the search --- */
+
+static ves_status evaluate(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
+{
+    study *s = data;
+    return ves_plan_evaluate(s->plan[worker], ask, verdict);
+}
+
+/* Stages are timed by the records that they send. */
+static void stage_enter(study *s, int index)
+{
+    ves_run_times *t = &s->run->times;
+    double now = ves_study_clock();
+    if (s->stage >= 0) t->stage[s->stage].wall += now - s->mark;
+    s->mark = now;
+    s->stage = index;
+    if (index >= t->stages) t->stages = index + 1;
+}
+
+static void hear_record(void *data, const ves_record *record)
+{
+    study *s = data;
+    int kind = (int)record->status;
+    if (record->stage != s->stage && record->stage >= 0 && record->stage < VES_STAGES)
+        stage_enter(s, record->stage);
+    s->run->times.stage[s->stage].evaluations++;
+    if (kind > 0 && kind < VES_RUN_KINDS) s->run->failed[kind]++;
+    ves_tracer_write(&s->tracer, record);
+}
+
+static void hear_progress(void *data, const ves_progress *progress)
+{
+    study *s = data;
+    ves_progress shown = *progress;
+    if (s->problem->maximize) shown.value = -shown.value;
+    if (progress->stage >= 0 && progress->stage < VES_STAGES && progress->stage_name)
+        snprintf(s->run->times.stage[progress->stage].name, VES_RUN_NAME, "%s", progress->stage_name);
+    if (s->hooks->progress) s->hooks->progress(s->hooks->data, &shown);
+}
+
+static bool hear_stopped(void *data)
+{
+    study *s = data;
+    return s->hooks->stopped && s->hooks->stopped(s->hooks->data);
+}
+
+static void stage_names(study *s)
+{
+    for (int k = 0; k < VES_STAGES; k++) {
+        bool polish = s->search.stages ? s->search.stage[k].kind == VES_STAGE_POLISH : k == 1;
+        snprintf(s->run->times.stage[k].name, VES_RUN_NAME, "%s", polish ? "polish" : "anneal");
+    }
+}
+
+/* The arrays of the search problem, in the run's arena. */
+static ves_status pose(study *s, ves_search_problem *out)
+{
+    const ves_problem *p = s->problem;
+    ves_arena *arena = &s->run->arena;
+    size_t n = (size_t)p->variables, m = (size_t)p->constraints;
+    double *lower = ves_arena_take(arena, n, sizeof *lower), *upper = ves_arena_take(arena, n, sizeof *upper);
+    const char **name = ves_arena_take(arena, n, sizeof *name);
+    bool *equality = ves_arena_take(arena, m, sizeof *equality);
+    if (!lower || !upper || !name || !equality) return VES_MEMORY;
+    for (size_t k = 0; k < n; k++) {
+        lower[k] = p->variable[k].min, upper[k] = p->variable[k].max;
+        name[k] = p->variable[k].name;
+    }
+    for (size_t k = 0; k < m; k++) equality[k] = p->constraint[k].relation == VES_EQUAL;
+    *out = (ves_search_problem){.n = p->variables,
+                                .m = p->constraints,
+                                .lower = lower,
+                                .upper = upper,
+                                .start = s->run->start.x,
+                                .equality = equality,
+                                .tolerance = VES_FEASIBLE,
+                                .gradients = ves_study_gradients(p),
+                                .workers = s->run->jobs,
+                                .evaluate = evaluate,
+                                .data = s,
+                                .name = name};
+    return VES_OK;
+}
+
+static ves_status optima_take(study *s, const ves_search_result *r)
+{
+    ves_run *run = s->run;
+    size_t width = sizeof(double) * (size_t)r->n;
+    double sign = s->problem->maximize ? -1 : 1;
+    run->optimum = ves_arena_take(&run->arena, (size_t)r->optima, sizeof *run->optimum);
+    if (!run->optimum) return VES_MEMORY;
+    for (int k = 0; k < r->optima; k++) {
+        const ves_optimum *o = &r->optimum[k];
+        double *x = ves_arena_take(&run->arena, (size_t)r->n, sizeof *x);
+        if (!x) return VES_MEMORY;
+        memcpy(x, o->x, width);
+        run->optimum[k] = (ves_run_optimum){x, sign * o->value, o->violation, o->hits, o->saddle};
+    }
+    run->optima = r->optima;
+    return VES_OK;
+}
+
+static ves_status words_take(study *s, const ves_search_result *r)
+{
+    ves_run *run = s->run;
+    run->stop = ves_arena_text(&run->arena, r->stop, strlen(r->stop));
+    run->note = ves_arena_take(&run->arena, (size_t)r->notes, sizeof *run->note);
+    run->temperature = ves_arena_take(&run->arena, (size_t)r->temperatures, sizeof *run->temperature);
+    if (!run->stop || !run->note || !run->temperature) return VES_MEMORY;
+    for (int k = 0; k < r->notes; k++)
+        if (!(run->note[k] = ves_arena_text(&run->arena, r->note[k], strlen(r->note[k])))) return VES_MEMORY;
+    for (int k = 0; k < r->temperatures; k++) run->temperature[k] = r->temperature[k];
+    run->notes = r->notes;
+    run->temperatures = r->temperatures;
+    return VES_OK;
+}
+
+static ves_status result_take(study *s, const ves_search_result *r)
+{
+    ves_run *run = s->run;
+    run->interrupted = r->status == VES_INTERRUPTED;
+    run->any = r->any;
+    run->evaluations = r->evaluations;
+    run->gradients = r->gradients;
+    VES_TRY(words_take(s, r));
+    VES_TRY(optima_take(s, r));
+    VES_TRY(measure(s, r->x, 1, &run->finer));
+    VES_TRY(measure(s, r->x, 0, &run->best));
+    run->feasible = r->feasible && run->best.status == VES_OK;
+    return VES_OK;
+}
+
+static ves_status search(study *s)
+{
+    ves_search_problem problem;
+    ves_search_result *result = NULL;
+    ves_search_hooks hooks = {hear_progress, hear_record, hear_stopped, s};
+    if (pose(s, &problem) != VES_OK) return complain(s->diag, VES_MEMORY);
+    stage_names(s);
+    s->stage = -1;
+    double begun = ves_study_clock();
+    ves_status status = ves_search_run(&problem, &s->search, &hooks, &result);
+    stage_enter(s, s->stage);
+    s->run->times.search = ves_study_clock() - begun;
+    if (!result) return complain(s->diag, status);
+    status = result_take(s, result);
+    ves_search_result_destroy(result);
+    return status == VES_MEMORY ? complain(s->diag, status) : status;
+}
+
+/* --- without a search --- */
+
+/* The dear checks that a search makes of its best. */
+static ves_status prove(study *s)
+{
+    ves_run *run = s->run;
+    ves_verdict verdict = {0};
+    ves_ask ask = {.x = run->start.x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
+    ves_status status = ves_plan_evaluate(s->plan[0], &ask, &verdict);
+    if (status != VES_OK) return complain(s->diag, status);
+    if (verdict.status == VES_OK) return VES_OK;
+    run->feasible = false;
+    ves_diag_add(s->diag, VES_WARNING, verdict.status, (ves_mark){0}, "%s", ves_status_text(verdict.status));
+    return VES_OK;
+}
+
+static ves_status once(study *s)
+{
+    ves_run *run = s->run;
+    run->evaluations = 1;
+    run->any = run->start.status == VES_OK;
+    run->feasible = run->start.feasible;
+    VES_TRY(measure(s, run->start.x, 1, &run->finer));
+    VES_TRY(measure(s, run->start.x, 0, &run->best));
+    if (run->any && (s->options->prove || !s->options->once)) VES_TRY(prove(s));
+    return VES_OK;
+}
+
+/* --- checks --- */
+
+static bool holds(const study *s, const ves_formula *formula, const double *argument, double *room)
+{
+    double value = ves_formula_eval(formula, s->run->best.slot, argument, room);
+    return !isnan(value) && value != 0;
+}
+
+static double *expect_arguments(const study *s)
+{
+    const ves_run *run = s->run;
+    int first = s->problem->measures;
+    double *argument = ves_arena_take(&s->run->arena, (size_t)(first + VES_EXPECT_NAMES), sizeof *argument);
+    if (!argument) return NULL;
+    if (first) memcpy(argument, run->best.measure, sizeof *argument * (size_t)first);
+    argument[first + VES_EXPECT_OBJECTIVE] = run->best.objective;
+    argument[first + VES_EXPECT_VIOLATION] = run->best.violation;
+    argument[first + VES_EXPECT_FEASIBLE] = run->feasible;
+    argument[first + VES_EXPECT_EVALUATIONS] = (double)run->evaluations;
+    argument[first + VES_EXPECT_GRADIENTS] = (double)run->gradients;
+    argument[first + VES_EXPECT_OPTIMA] = run->optima;
+    return argument;
+}
+
+static ves_status expect(study *s)
+{
+    const ves_problem *p = s->problem;
+    ves_run *run = s->run;
+    bool test = s->options->test && p->test_expects > 0;
+    const ves_expect_def *list = test ? p->test_expect : p->expect;
+    run->passed = true;
+    if (s->options->once) return VES_OK;
+    run->expects = test ? p->test_expects : p->expects;
+    run->expect = ves_arena_take(&run->arena, (size_t)run->expects, sizeof *run->expect);
+    double *argument = expect_arguments(s);
+    if (!run->expect || !argument) return complain(s->diag, VES_MEMORY);
+    for (int k = 0; k < run->expects; k++) {
+        double *room = ves_arena_take(&run->arena, (size_t)ves_formula_room(list[k].formula), sizeof *room);
+        if (!room) return complain(s->diag, VES_MEMORY);
+        run->expect[k] = (ves_run_expect){list[k].text, holds(s, list[k].formula, argument, room)};
+        run->passed = run->passed && run->expect[k].passed;
+    }
+    return VES_OK;
+}
+
+/* --- the whole --- */
+
+static ves_status work(study *s)
+{
+    ves_run *run = s->run;
+    VES_TRY(plans_make(s));
+    VES_TRY(start_measure(s));
+    folder_begin(s);
+    if (s->files == VES_USAGE) return s->files; /* a slip, told before the search has cost anything */
+    if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);
+    VES_TRY(run->searched ? search(s) : once(s));
+    run->finer_change = ves_design_change(s->problem, &run->best, &run->finer);
+    VES_TRY(expect(s));
+    run->times.wall = ves_study_clock() - s->wall;
+    run->times.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - s->cpu;
+    folder_end(s);
+    return VES_OK;
+}
+
+static void plans_destroy(study *s)
+{
+    for (int k = 0; s->plan && k < s->run->jobs; k++) ves_plan_destroy(s->plan[k]);
+    ves_tracer_end(&s->tracer);
+}
+
+ves_status ves_study_run(const ves_problem *problem, const ves_run_options *options,
+                         const ves_run_hooks *hooks, ves_run **out, ves_diag *diag)
+{
+    static const ves_run_hooks deaf = {0};
+    *out = NULL;
+    ves_run *run = ves_memory_take(sizeof *run);
+    if (!run) return complain(diag, VES_MEMORY);
+    study s = {
+        .problem = problem, .options = options, .hooks = hooks ? hooks : &deaf, .diag = diag, .run = run};
+    s.wall = ves_study_clock();
+    s.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
+    settle(&s);
+    ves_status status = work(&s);
+    plans_destroy(&s);
+    if (status != VES_OK) {
+        ves_run_destroy(run);
+        return status;
+    }
+    *out = run;
+    return s.files;
+}
+
+void ves_run_destroy(ves_run *run)
+{
+    if (!run) return;
+    ves_arena_destroy(&run->arena);
+    ves_memory_free(run);
+}

@@ -1,0 +1,83 @@
+#include "study/trace.h"
+
+#include <errno.h>
+#include <math.h>
+#include <string.h>
+
+#include "output/file.h"
+
+/* Room for the words and the fixed numbers of a line, and for each variable: a line of the tube with 17
+ * variables has about 300 bytes. */
+enum { FIXED = 400, EACH = 24 };
+
+ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, ves_arena *arena)
+{
+    tracer->path = path;
+    tracer->room = (size_t)(FIXED + EACH * tracer->problem->variables);
+    tracer->line = ves_arena_take(arena, tracer->room, 1);
+    if (!tracer->line) return VES_MEMORY;
+    tracer->out = fopen(path, "wbx");
+    return tracer->out ? VES_OK : ves_file_complain(path, errno, tracer->diag);
+}
+
+/* The name in VES_STATUS_LIST: FOLDED, NO_NUMBER ... */
+static const char *word(ves_status status)
+{
+    switch (status) {
+#define CASE(name, value, sentence)                                                                          \
+    case VES_##name:                                                                                         \
+        return #name;
+        VES_STATUS_LIST(CASE)
+#undef CASE
+    }
+    return "FAULT";
+}
+
+static void complain(ves_tracer *tracer)
+{
+    if (tracer->status == VES_OK) tracer->status = ves_file_complain(tracer->path, errno, tracer->diag);
+}
+
+static size_t number(char *at, const char *key, double value, const char *format)
+{
+    size_t length = (size_t)snprintf(at, EACH * 2, ",\"%s\":", key);
+    if (!isfinite(value)) return length + (size_t)snprintf(at + length, EACH, "null");
+    return length + (size_t)snprintf(at + length, EACH, format, value);
+}
+
+/* Nine digits of x are enough to see where a search has been and keep the file small; the best stands in
+ * result.json with all of them. */
+static size_t compose(const ves_tracer *tracer, const ves_record *r, char *at)
+{
+    const char *begin = at;
+    double sign = tracer->problem->maximize ? -1 : 1;
+    at += snprintf(at, FIXED / 2, "{\"evaluation\":%ld,\"stage\":%d,\"chain\":%d,\"x\":[", r->evaluation,
+                   r->stage, r->chain);
+    for (int k = 0; k < tracer->problem->variables; k++)
+        at += snprintf(at, EACH, k ? ",%.9g" : "%.9g", r->x[k]);
+    *at++ = ']';
+    at += number(at, "value", r->status == VES_OK ? sign * r->value : NAN, "%.15g");
+    at += number(at, "violation", r->violation, "%.9g");
+    at += number(at, "T", r->temperature, "%.9g");
+    at += snprintf(at, FIXED / 4, ",\"accepted\":%s,\"status\":\"%s\"}\n", r->accepted ? "true" : "false",
+                   word(r->status));
+    return (size_t)(at - begin);
+}
+
+void ves_tracer_write(ves_tracer *tracer, const ves_record *record)
+{
+    if (!tracer->out || tracer->status != VES_OK) return;
+    if (tracer->which == VES_TRACE_ACCEPTED && !record->accepted) return;
+    size_t length = compose(tracer, record, tracer->line);
+    if (fwrite(tracer->line, 1, length, tracer->out) != length) complain(tracer);
+    if (record->stage != tracer->stage && fflush(tracer->out)) complain(tracer);
+    tracer->stage = record->stage;
+}
+
+ves_status ves_tracer_end(ves_tracer *tracer)
+{
+    if (!tracer->out) return tracer->status;
+    if (fclose(tracer->out)) complain(tracer);
+    tracer->out = NULL;
+    return tracer->status;
+}

@@ -1,0 +1,27 @@
+/* Trace: one line of JSON for each candidate of a search, written as they come. */
+#ifndef VES_STUDY_TRACE_H
+#define VES_STUDY_TRACE_H
+
+#include <stdio.h>
+
+#include "problem/problem.h"
+#include "study/run.h"
+
+typedef struct ves_tracer {
+    const ves_problem *problem;
+    const char *path;
+    FILE *out; /* NULL: nothing is written */
+    ves_trace which;
+    int stage; /* of the last line */
+    ves_diag *diag;
+    char *line; /* one line's room */
+    size_t room;
+    ves_status status;
+} ves_tracer;
+
+/* The arena keeps the room of a line. On failure nothing is open. */
+ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, ves_arena *arena);
+void ves_tracer_write(ves_tracer *tracer, const ves_record *record);
+ves_status ves_tracer_end(ves_tracer *tracer);
+
+#endif

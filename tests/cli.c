@@ -1,0 +1,524 @@
+/* The command line, as a user meets it: the program itself, in a folder of its own. */
+#include <criterion/criterion.h>
+#include <criterion/new/assert.h>
+
+#pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
+
+#include <fcntl.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "problem/tree.h"
+
+#define PROBLEMS VESICA_SOURCE "/problems/"
+
+enum { WORDS = 32, TEXT = 4096 };
+
+static char root[512];
+
+/* fontconfig keeps what it has read about the fonts until the process ends, and nothing of it points there:
+ * under the leak sanitizer that is no leak of ours. */
+static void hush(void)
+{
+    FILE *out = fopen("quiet", "w");
+    cr_assert(out != NULL);
+    fputs("leak:libfontconfig\n", out);
+    fclose(out);
+}
+
+static void root_make(void)
+{
+    snprintf(root, sizeof root, "%s/test_cli.%ld", VESICA_BUILD, (long)getpid());
+    cr_assert(mkdir(root, 0777) == 0);
+    cr_assert(chdir(root) == 0);
+    hush();
+}
+
+static void root_remove(void)
+{
+    char command[600];
+    snprintf(command, sizeof command, "rm -rf '%s'", root);
+    cr_assert(chdir("/") == 0);
+    cr_assert(system(command) == 0);
+}
+
+/* --- running it --- */
+
+typedef struct outcome {
+    int code;
+    char *out, *err;
+} outcome;
+
+static char *slurp(const char *path)
+{
+    FILE *in = fopen(path, "rb");
+    cr_assert(in != NULL, "cannot open %s", path);
+    fseek(in, 0, SEEK_END);
+    long length = ftell(in);
+    rewind(in);
+    char *text = malloc((size_t)length + 1);
+    cr_assert(fread(text, 1, (size_t)length, in) == (size_t)length);
+    text[length] = 0;
+    fclose(in);
+    return text;
+}
+
+static void become(const char *words, const char *in, const char *out)
+{
+    static char copy[TEXT];
+    char *word[WORDS] = {VESICA_BUILD "/vesica"};
+    int count = 1;
+    snprintf(copy, sizeof copy, "%s", words);
+    for (char *w = strtok(copy, " "); w && count < WORDS - 1; w = strtok(NULL, " ")) word[count++] = w;
+    dup2(open(in ? in : "/dev/null", O_RDONLY), 0);
+    dup2(open(out, O_WRONLY | O_CREAT | O_TRUNC, 0666), 1);
+    dup2(open("stderr", O_WRONLY | O_CREAT | O_TRUNC, 0666), 2);
+    setenv("LSAN_OPTIONS", "suppressions=quiet:print_suppressions=0", 1);
+    execv(word[0], word);
+    _exit(127);
+}
+
+static pid_t launch(const char *words, const char *in, const char *out)
+{
+    pid_t child = fork();
+    if (!child) become(words, in, out);
+    return child;
+}
+
+static int wait_for(pid_t child)
+{
+    int status;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+/* Words are separated by single blanks; %-formats are filled in. */
+static outcome vesica(const char *in, const char *format, ...)
+{
+    char words[TEXT];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(words, sizeof words, format, list);
+    va_end(list);
+    int code = wait_for(launch(words, in, "stdout"));
+    return (outcome){code, slurp("stdout"), slurp("stderr")};
+}
+
+static void done(outcome *o)
+{
+    free(o->out);
+    free(o->err);
+}
+
+static void expect(outcome o, int code, const char *out, const char *err, const char *what)
+{
+    cr_assert(o.code == code, "%s: exit %d, want %d\nstdout: %s\nstderr: %s", what, o.code, code, o.out,
+              o.err);
+    if (out) cr_assert(strstr(o.out, out) != NULL, "%s: no \"%s\" on stdout:\n%s", what, out, o.out);
+    if (err) cr_assert(strstr(o.err, err) != NULL, "%s: no \"%s\" on stderr:\n%s", what, err, o.err);
+    done(&o);
+}
+
+static void write_file(const char *path, const char *text)
+{
+    FILE *out = fopen(path, "w");
+    cr_assert(out != NULL);
+    fputs(text, out);
+    fclose(out);
+}
+
+/* --- JSON --- */
+
+typedef struct json {
+    ves_arena arena;
+    const ves_node *root;
+    char *text;
+} json;
+
+static json json_of(const char *text)
+{
+    json j = {.text = strdup(text)};
+    ves_script *script = ves_arena_take(&j.arena, 1, sizeof *script);
+    cr_assert(ves_script_init(script, j.text, strlen(text), &j.arena) == VES_OK);
+    cr_assert(ves_tree_read(script, &j.arena, &j.root, NULL) == VES_OK, "this is no single JSON value:\n%s",
+              text);
+    cr_assert(j.root && j.root->kind == VES_NODE_MAP && *text == '{', "this is no object:\n%s", text);
+    return j;
+}
+
+static double number(const json *j, const char *key, const char *inner)
+{
+    const ves_node *node = ves_node_find(j->root, key);
+    if (node && inner) node = ves_node_find(node, inner);
+    cr_assert(node && node->kind == VES_NODE_WORD, "no number %s %s", key, inner ? inner : "");
+    return strtod(node->text, NULL);
+}
+
+static void json_done(json *j)
+{
+    free(j->text);
+    ves_arena_destroy(&j->arena);
+}
+
+/* --- the command line --- */
+
+Test(cli, every_mistake_has_its_exit_code_and_a_hint)
+{
+    static const struct {
+        const char *words;
+        int code;
+        const char *hint;
+    } list[] = {
+        {"rum x.yaml", 2, "did you mean \"run\"?"},
+        {"nothing", 2, "vesica help"},
+        {"--json run", 2, "a command comes first"},
+        {"run", 2, "something is missing: vesica run FILE"},
+        {"run nosuch.yaml", 2, "cannot open \"nosuch.yaml\""},
+        {"run a.yaml b.yaml", 2, "what is \"b.yaml\" for?"},
+        {"run a.yaml --sed 1", 2, "did you mean \"--set\"?"},
+        {"run a.yaml --zzzzzz", 2, "vesica help run"},
+        {"run a.yaml --seed", 2, "--seed needs a value"},
+        {"run a.yaml --seed -1", 2, "whole number"},
+        {"run a.yaml --jobs 0", 2, "1 to 256"},
+        {"run a.yaml --evaluations 1e3", 2, "whole number"},
+        {"run a.yaml --set radius", 2, "--set needs name=value"},
+        {"run a.yaml --json=yes", 2, "takes no value"},
+        {"run a.yaml --progress loud", 2, "auto, plain or none"},
+        {"run a.yaml -q", 2, "two dashes"},
+        {"eval a.yaml --seed 1", 2, "no option \"--seed\""},
+        {"export a.yaml", 2, "--to FORMAT"},
+        {"export a.yaml --to stk", 2, "did you mean \"stl\"?"},
+        {"export a.yaml --to step", 3, "does not write step yet"},
+        {"show a.yaml --view 3", 2, "azimuth,height"},
+        {"show a.yaml --colour red", 2, "patch, H, K, k1 or k2"},
+        {"show a.yaml --grid 4", 2, "48x96"},
+        {"sample a.yaml", 2, "--points FILE or --spine N"},
+        {"sample a.yaml --spine 1", 2, "2 to 1000000"},
+        {"list", 2, "list what?"},
+        {"list unit", 2, "did you mean \"units\"?"},
+        {"help rnu", 2, "did you mean \"run\"?"},
+        {"new cna", 2, "did you mean \"can\"?"},
+        {"explain cirle", 2, "did you mean \"circle\"?"},
+        {"sweep a.yaml", 3, "does not have"},
+        {"bench a.yaml", 3, "does not have"},
+        {"serve", 3, "does not have"},
+        {"report runs/a", 3, "does not have"},
+        {"run --resume runs/a", 3, "cannot go on"},
+        {"run .", 2, "is a folder"},
+        {"run a.yaml --plugin ./none.so", 2, "cannot load the plugin"},
+    };
+    root_make();
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++)
+        expect(vesica(NULL, "%s", list[k].words), list[k].code, NULL, list[k].hint, list[k].words);
+    root_remove();
+}
+
+Test(cli, help_and_lists_speak_of_everything)
+{
+    static const struct {
+        const char *words, *has;
+    } list[] = {
+        {"help", "vesica help COMMAND"},
+        {"--help", "usage:"},
+        {"help run", "--evaluations"},
+        {"run --help", "--evaluations"},
+        {"version", "CGAL"},
+        {"--version", "NLopt"},
+        {"list measures", "bending"},
+        {"list curves", "bspline"},
+        {"list moves", "ridge"},
+        {"list algorithms", "slsqp"},
+        {"list formats", "vtp"},
+        {"list units", "mm"},
+        {"list templates", "tube"},
+        {"new", "tube"},
+        {"schema", "\"$schema\""},
+        {"schema --reference", "circle"},
+        {"explain circle", "radius"},
+        {"explain slsqp", "slsqp"},
+    };
+    root_make();
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++)
+        expect(vesica(NULL, "%s", list[k].words), 0, list[k].has, NULL, list[k].words);
+    root_remove();
+}
+
+Test(cli, a_template_is_a_problem_that_runs)
+{
+    root_make();
+    outcome names = vesica(NULL, "new");
+    int count = 0;
+    for (char *rest, *line = strtok_r(names.out, "\n", &rest); line;
+         line = strtok_r(NULL, "\n", &rest), count++) {
+        char name[64], path[80];
+        cr_assert(sscanf(line, " %63s", name) == 1);
+        snprintf(path, sizeof path, "%s.yaml", name);
+        expect(vesica(NULL, "new %s", name), 0, path, NULL, name);
+        expect(vesica(NULL, "new %s", name), 2, NULL, "nothing is overwritten", name);
+        expect(vesica(NULL, "check %s", path), 0, ": ok", NULL, name);
+        expect(vesica(NULL, "run %s --test --no-files", path), 0, NULL, NULL, name);
+        char *text = slurp(path);
+        expect(vesica(NULL, "new %s -", name), 0, text, NULL, name);
+        free(text);
+    }
+    cr_assert(count >= 3, "%d templates", count);
+    cr_assert(access("runs", F_OK) != 0, "--no-files made a folder");
+    done(&names);
+    root_remove();
+}
+
+/* --- run --- */
+
+Test(cli, run_prints_one_object_and_keeps_a_folder)
+{
+    static const char *const contract[] = {"title",    "objective",   "feasible",    "violation", "variables",
+                                           "measures", "constraints", "evaluations", "gradients", "stop",
+                                           "seed",     "version",     "wall_s",      "cpu_s"};
+    root_make();
+    outcome o = vesica(NULL, "run " PROBLEMS "bottle.yaml --evaluations 3000 --seed 5 --json");
+    cr_assert(eq(int, o.code, 0), "%s", o.err);
+    json j = json_of(o.out);
+    for (size_t k = 0; k < sizeof contract / sizeof *contract; k++)
+        cr_assert(ves_node_find(j.root, contract[k]) != NULL, "no \"%s\"", contract[k]);
+    cr_assert(fabs(number(&j, "objective", NULL) - 2.2214414690791831) < 5e-6, "V = pi / sqrt 2, got %.9g",
+              number(&j, "objective", NULL)); /* area within 1e-6 of its size */
+    cr_assert(number(&j, "seed", NULL) == 5);
+    char *kept = slurp("runs/bottle-0001/result.json");
+    json r = json_of(kept);
+    cr_assert(number(&r, "objective", NULL) == number(&j, "objective", NULL));
+    cr_assert(ves_node_find(r.root, "wall_s") == NULL, "clock data in result.json");
+    static const char *const files[] = {"problem.yaml", "times.json", "trace.jsonl", "log.txt",
+                                        "best.vtp",     "start.vtp",  "best.png"};
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        char path[100];
+        snprintf(path, sizeof path, "runs/bottle-0001/%s", files[k]);
+        cr_assert(access(path, F_OK) == 0, "%s is missing", path);
+    }
+    json_done(&j);
+    json_done(&r);
+    free(kept);
+    done(&o);
+    root_remove();
+}
+
+Test(cli, runs_are_numbered_and_FILE_alone_is_run)
+{
+    root_make();
+    expect(vesica(NULL, PROBLEMS "bottle.yaml --evaluations 1500"), 0, "runs/bottle-0001/", "bottle", "FILE");
+    expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --evaluations 1500 --jobs 1"), 0, "runs/bottle-0002/",
+           NULL, "run");
+    char *a = slurp("runs/bottle-0001/result.json"), *b = slurp("runs/bottle-0002/result.json");
+    cr_assert(eq(str, a, b), "all threads and one thread differ");
+    free(a);
+    free(b);
+    expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --out runs/bottle-0001"), 2, NULL, "not empty", "--out");
+    root_remove();
+}
+
+Test(cli, an_infeasible_or_unexpected_end_is_exit_1)
+{
+    root_make();
+    expect(vesica(NULL,
+                  "run " PROBLEMS "bottle.yaml --no-files --evaluations 800 --set constraints=[area==100]"),
+           1, "no design met all constraints", NULL, "out of reach");
+    char *text = slurp(PROBLEMS "bottle.yaml"), *at = strstr(text, "expect:");
+    cr_assert(at != NULL);
+    *at = 0;
+    write_file("greedy.yaml", text);
+    FILE *out = fopen("greedy.yaml", "a");
+    fputs("expect: [volume > 3]\n", out);
+    fclose(out);
+    free(text);
+    expect(vesica(NULL, "run greedy.yaml --no-files --evaluations 800"), 1, "FAILED  volume > 3", NULL,
+           "expect");
+    root_remove();
+}
+
+/* A signal that comes while the search is at work: the trace has begun. */
+static void wait_for_trace(const char *path)
+{
+    for (int k = 0; k < 1000; k++) {
+        struct stat there;
+        if (stat(path, &there) == 0 && there.st_size > 0) return;
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+    }
+    cr_assert(false, "%s never came", path);
+}
+
+Test(cli, an_interrupt_keeps_everything_and_exits_130)
+{
+    static const int signals[] = {SIGINT, SIGTERM};
+    root_make();
+    for (int k = 0; k < 2; k++) {
+        char words[300], path[100];
+        snprintf(words, sizeof words,
+                 "run " PROBLEMS "curvature.yaml --evaluations 900000000 --jobs %d --json --out stop%d",
+                 k + 1, k);
+        snprintf(path, sizeof path, "stop%d/trace.jsonl", k);
+        pid_t child = launch(words, NULL, "stdout");
+        wait_for_trace(path);
+        kill(child, signals[k]);
+        cr_assert(eq(int, wait_for(child), 130));
+        char *out = slurp("stdout");
+        json j = json_of(out);
+        cr_assert(number(&j, "objective", NULL) > 12, "the best so far");
+        snprintf(path, sizeof path, "stop%d/best.vtp", k);
+        cr_assert(access(path, F_OK) == 0);
+        json_done(&j);
+        free(out);
+    }
+    root_remove();
+}
+
+Test(cli, a_full_disk_under_stdout_is_no_success)
+{
+    root_make();
+    cr_assert(eq(int, wait_for(launch("list measures", NULL, "/dev/full")), 3));
+    char *err = slurp("stderr");
+    cr_assert(strstr(err, "cannot write to standard output") != NULL, "%s", err);
+    free(err);
+    root_remove();
+}
+
+/* --- one design --- */
+
+Test(cli, eval_answers_at_the_start_and_where_it_is_set)
+{
+    static const char *const contract[] = {"variables", "measures", "objective", "violation"};
+    root_make();
+    outcome o = vesica(NULL, "eval " PROBLEMS "bottle.yaml --set r=0.7 --set h=1.3 --json");
+    json j = json_of(o.out);
+    for (int k = 0; k < 4; k++)
+        cr_assert(ves_node_find(j.root, contract[k]) != NULL, "no \"%s\"", contract[k]);
+    double V = 3.14159265358979324 * 0.49 * 1.3;
+    cr_assert(fabs(number(&j, "objective", NULL) - V) < 1e-12 * V, "got %.17g, want %.17g",
+              number(&j, "objective", NULL), V);
+    cr_assert(number(&j, "variables", "r") == 0.7);
+    cr_assert(eq(int, o.code, 1), "the area is not 3 pi");
+    json_done(&j);
+    done(&o);
+    root_remove();
+}
+
+Test(cli, a_run_is_a_design_for_every_command)
+{
+    root_make();
+    expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --evaluations 3000 --out best"), 0, NULL, NULL, "run");
+    char *kept = slurp("best/result.json");
+    json r = json_of(kept);
+    outcome o = vesica(NULL, "eval best --json");
+    json j = json_of(o.out);
+    cr_assert(number(&j, "objective", NULL) == number(&r, "objective", NULL), "eval of a run is its best");
+    expect(vesica(NULL, "export best --to vtp,stl --out files --grid 12x24"), 0, "files/best.stl", NULL,
+           "export");
+    expect(vesica(NULL, "export best --to stl --out files"), 0, "files/best-2.stl", NULL, "export again");
+    expect(vesica(NULL, "show best --view 40,10 --colour H"), 0, "best.png", NULL, "show");
+    expect(vesica(NULL, "sample best --patch wall --spine 5"), 0, "u,x,y,z", NULL, "spine");
+    cr_assert(eq(int, o.code, 0), "eval of a feasible run");
+    expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --start best --no-files --evaluations 300"), 0, NULL,
+           NULL, "--start");
+    expect(vesica(NULL, "run " PROBLEMS "curvature.yaml --start best --no-files"), 2, NULL, "has no variable",
+           "--start of another");
+    json_done(&j);
+    json_done(&r);
+    free(kept);
+    done(&o);
+    root_remove();
+}
+
+/* --- sample --- */
+
+/* One row of numbers. */
+static int row_read(char **text, double *value, int most)
+{
+    int count = 0;
+    for (char *end; count < most; *text = end + 1) {
+        value[count++] = strtod(*text, &end);
+        if (*end != ',') {
+            *text = *end == '\n' ? end + 1 : end;
+            break;
+        }
+    }
+    return count;
+}
+
+/* The wall of the bottle: X = (r cos v, r sin v, h u), with rounding. */
+Test(cli, sample_gives_the_surface_exactly)
+{
+    root_make();
+    write_file("uv.csv", "u,v\n0,0\n0.25,1.1\r\n\n 1 , 6.2\n0.5,-3\n");
+    outcome o =
+        vesica("uv.csv", "sample " PROBLEMS "bottle.yaml --patch wall --points - --set r=0.61 --set h=1.7");
+    cr_assert(eq(int, o.code, 0), "%s", o.err);
+    char *at = strchr(o.out, '\n') + 1;
+    double x[40], r = 0.61, h = 1.7;
+    for (int k = 0; k < 4; k++) {
+        cr_assert(eq(int, row_read(&at, x, 40), 20));
+        double u = x[0], c = cos(x[1]), s = sin(x[1]);
+        double want[18] = {r * c, r * s, h * u, 0, 0, h, -r * s, r * c,  0,
+                           0,     0,     0,     0, 0, 0, -r * c, -r * s, 0};
+        for (int f = 0; f < 18; f++)
+            cr_assert(fabs(x[2 + f] - want[f]) < 1e-14, "row %d, column %d: got %.17g, want %.17g", k, f + 3,
+                      x[2 + f], want[f]);
+    }
+    cr_assert(eq(int, *at, 0), "more rows than points: %s", at);
+    done(&o);
+    write_file("bad.csv", "0,0\n0.5\n");
+    expect(vesica(NULL, "sample " PROBLEMS "bottle.yaml --patch wall --points bad.csv"), 2, NULL,
+           "bad.csv:2: two numbers", "bad row");
+    write_file("far.csv", "0,0\n1.5,0\n");
+    expect(vesica(NULL, "sample " PROBLEMS "bottle.yaml --patch wall --points far.csv"), 2, NULL,
+           "far.csv:2: u = 1.5", "outside");
+    expect(vesica(NULL, "sample " PROBLEMS "bottle.yaml --patch wal --points far.csv"), 2, NULL,
+           "did you mean \"wall\"?", "patch");
+    expect(vesica(NULL, "sample " PROBLEMS "bottle.yaml --points far.csv"), 2, NULL, "--patch NAME is needed",
+           "no patch");
+    root_remove();
+}
+
+/* --- plugins --- */
+
+static void build_plugin(const char *name, const char *defines)
+{
+    char command[1200];
+    snprintf(command, sizeof command,
+             "cc -std=c17 -shared -fPIC %s -I" VESICA_SOURCE "/include -o %s " VESICA_SOURCE
+             "/examples/plugin/sphericity.c -lm",
+             defines, name);
+    cr_assert(system(command) == 0, "%s", command);
+}
+
+Test(cli, a_plugin_is_a_measure_like_any_other)
+{
+    root_make();
+    build_plugin("good.so", "");
+    expect(vesica(NULL, "list measures --plugin good.so"), 0, "sphericity", NULL, "list");
+    expect(vesica(NULL, "explain sphericity --plugin ./good.so"), 0, "sphericity", NULL, "explain");
+    expect(vesica(NULL, "eval " PROBLEMS "bottle.yaml --set maximize=sphericity"), 2, NULL, "sphericity",
+           "without it");
+    outcome o =
+        vesica(NULL, "eval " PROBLEMS "bottle.yaml --set maximize=sphericity --plugin good.so --json");
+    json j = json_of(o.out);
+    /* V = pi / 4, A = 1.5 pi */
+    double V = 0.78539816339744831, A = 4.71238898038468986,
+           want = cbrt(36 * 3.14159265358979324 * V * V) / A;
+    cr_assert(fabs(number(&j, "objective", NULL) - want) < 1e-13, "got %.17g, want %.17g",
+              number(&j, "objective", NULL), want);
+    json_done(&j);
+    done(&o);
+    expect(vesica(NULL, "list measures --plugin good.so --plugin ./good.so"), 2, NULL,
+           "there is one of that name", "twice");
+    write_file("old.c", "const struct { int abi; const char *name; const void *measure; } ves_plugin_entry = "
+                        "{99, \"old\", 0};\n");
+    cr_assert(system("cc -shared -fPIC -o old.so old.c && cc -shared -fPIC -x c -o empty.so /dev/null") == 0);
+    expect(vesica(NULL, "list measures --plugin old.so"), 3, NULL, "built for interface 99", "ABI");
+    expect(vesica(NULL, "list measures --plugin empty.so"), 2, NULL, "no ves_plugin_entry", "no entry");
+    root_remove();
+}
