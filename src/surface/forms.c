@@ -105,11 +105,14 @@ HOT void gradient(const ves_tile *tile, const ves_tile_planes *field, double sid
 void ves_forms_gradient(const ves_tile *tile, const ves_tile_planes *field, double side, bool no_normal,
                         const ves_form_planes *form_adjoint, ves_tile_planes *field_adjoint)
 {
+    /* Four kernels from one text: with constant flags each is one loop without branches. */
     bool second = (tile->fields & SECOND) == SECOND;
     if (second && no_normal)
         gradient(tile, field, side, true, true, form_adjoint, field_adjoint);
     else if (second)
         gradient(tile, field, side, true, false, form_adjoint, field_adjoint);
+    else if (no_normal)
+        gradient(tile, field, side, false, true, form_adjoint, field_adjoint);
     else
-        gradient(tile, field, side, false, no_normal, form_adjoint, field_adjoint);
+        gradient(tile, field, side, false, false, form_adjoint, field_adjoint);
 }

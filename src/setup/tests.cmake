@@ -1,0 +1,62 @@
+# Tests: one program a file tests/NAME.c, the problem files, the reader's fuzz target, and the scripts of tests/slow.
+enable_testing()
+pkg_check_modules(CRITERION REQUIRED IMPORTED_TARGET criterion)
+pkg_check_modules(MPFR REQUIRED IMPORTED_TARGET mpfr)
+
+# Under sanitizers a test runs in a wrapper: a leak in a process of a Criterion test does not fail that test by itself.
+set(under "")
+set(fuzz_seconds 5)
+if(VESICA_SANITIZE)
+  set(fuzz_seconds 60) # here it finds most
+  set(under sh ${CMAKE_SOURCE_DIR}/src/setup/sanitized.sh ${CMAKE_BINARY_DIR})
+endif()
+
+function(vesica_program NAME FILE)
+  add_executable(${NAME} ${FILE})
+  target_include_directories(${NAME} PRIVATE tests)
+  target_compile_definitions(${NAME} PRIVATE VESICA_SOURCE="${CMAKE_SOURCE_DIR}" VESICA_BUILD="${CMAKE_BINARY_DIR}")
+  target_link_libraries(${NAME} PRIVATE vesica_core)
+endfunction()
+
+file(GLOB tests CONFIGURE_DEPENDS tests/*.c)
+foreach(file ${tests})
+  get_filename_component(name ${file} NAME_WE)
+  vesica_program(test_${name} ${file})
+  target_link_libraries(test_${name} PRIVATE PkgConfig::CRITERION PkgConfig::MPFR)
+  # Oracles round every operation; Criterion's macros convert.
+  set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS "-ffp-contract=off;-Wno-conversion")
+  add_test(NAME ${name} COMMAND ${under} $<TARGET_FILE:test_${name}>)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 300)
+endforeach()
+# This one counts our calls of the allocator and makes them fail.
+target_link_options(test_allocation PRIVATE -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc)
+
+if(TARGET vesica)
+  file(GLOB_RECURSE problems CONFIGURE_DEPENDS problems/*.yaml)
+  foreach(file ${problems})
+    file(RELATIVE_PATH name ${CMAKE_SOURCE_DIR}/problems ${file})
+    if(NOT name MATCHES "^templates/")
+      add_test(NAME problem/${name} COMMAND ${under} $<TARGET_FILE:vesica> run ${file} --test --no-files --progress none)
+      set_tests_properties(problem/${name} PROPERTIES TIMEOUT 300)
+    endif()
+  endforeach()
+endif()
+
+file(GLOB fuzz CONFIGURE_DEPENDS tests/fuzz/*.c)
+foreach(file ${fuzz})
+  get_filename_component(name ${file} NAME_WE)
+  vesica_program(fuzz_${name} ${file})
+  add_test(NAME fuzz/${name} COMMAND ${under} $<TARGET_FILE:fuzz_${name}> ${fuzz_seconds})
+  set_tests_properties(fuzz/${name} PROPERTIES TIMEOUT 300 COST 1000)
+endforeach()
+
+file(GLOB scripts CONFIGURE_DEPENDS tests/*.sh)
+file(GLOB slow CONFIGURE_DEPENDS tests/slow/*.sh)
+foreach(file ${scripts} ${slow})
+  get_filename_component(name ${file} NAME_WE)
+  set(name script/${name})
+  add_test(NAME ${name} COMMAND sh ${file} ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR})
+  if(file MATCHES "/slow/")
+    set_tests_properties(${name} PROPERTIES LABELS slow TIMEOUT 7200)
+  endif()
+endforeach()
