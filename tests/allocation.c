@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plan/plan.h"
+#include "problem/problem.h"
+#include "surface/figure.h"
+#include "vesica/plan.h"
 
 static struct {
     long calls, fail_at; /* counts from 1; 0: never fail */

@@ -9,7 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plan/plan.h"
+#include "problem/problem.h"
+#include "surface/figure.h"
+#include "vesica/plan.h"
 
 enum { FILES = 400, TEXT = 4000, FOUND = 400000 };
 

@@ -6,7 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "plan/plan.h"
+#include "problem/problem.h"
+#include "surface/figure.h"
+#include "vesica/plan.h"
 
 typedef struct bed {
     ves_problem *problem;

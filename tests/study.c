@@ -150,7 +150,7 @@ static trial run_with(const char *text, const ves_run_options *options, const ve
     t.status = ves_problem_read_text("test.yaml", text, strlen(text), NULL, &t.problem, t.diag);
     if (t.status != VES_OK) speak(t.diag);
     cr_assert(t.status == VES_OK);
-    t.status = ves_study_run(t.problem, options, hooks, &t.run, t.diag);
+    t.status = ves_run_create(t.problem, options, hooks, &t.run, t.diag);
     return t;
 }
 

@@ -5,7 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "plan/plan.h"
+#include "problem/problem.h"
+#include "surface/figure.h"
+#include "vesica/plan.h"
 #include "surface/grid.h"
 
 enum { X, XU, XV, XUU, XUV, XVV, FIELDS, POINTS = 40 };

@@ -4,7 +4,11 @@
 
 #include "vesica/diag.h"
 #include "vesica/field.h"
+#include "vesica/figure.h"
 #include "vesica/measure.h"
+#include "vesica/plan.h"
+#include "vesica/problem.h"
+#include "vesica/run.h"
 #include "vesica/search.h"
 #include "vesica/status.h"
 #include "vesica/verdict.h"

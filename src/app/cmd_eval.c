@@ -17,7 +17,7 @@ int app_eval(app *a)
     int code;
     if (!app_open(a, &opened, &code)) return code;
     const ves_run_options options = {.once = true};
-    ves_status status = ves_study_run(opened.problem, &options, NULL, &run, a->diag);
+    ves_status status = ves_run_create(opened.problem, &options, NULL, &run, a->diag);
     app_say(a);
     code = app_code(status);
     if (run) {

@@ -72,7 +72,7 @@ static ves_status work(app *a, const ves_opened *opened, ves_run **run)
     listener l = {a, ves_progress_create(stderr, o->progress)};
     ves_run_hooks hooks = {heading, show, stopped, &l};
     app_interrupt_listen();
-    ves_status status = ves_study_run(opened->problem, &options, &hooks, run, a->diag);
+    ves_status status = ves_run_create(opened->problem, &options, &hooks, run, a->diag);
     ves_progress_destroy(l.bar);
     app_say(a);
     return status;

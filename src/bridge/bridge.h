@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "vesica/mesh.h"
+#include "surface/mesh.h"
 #include "vesica/status.h"
 
 #ifdef __cplusplus

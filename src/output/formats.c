@@ -23,3 +23,12 @@ const ves_format *ves_format_find(const char *name)
         if (!strcmp((*format)->name, name)) return *format;
     return NULL;
 }
+
+ves_status ves_figure_write(ves_figure *figure, const char *path, ves_diag *diag)
+{
+    const char *dot = strrchr(path, '.');
+    const ves_format *format = dot ? ves_format_find(dot + 1) : NULL;
+    if (format) return format->write(figure, path, diag);
+    return ves_diag_add(diag, VES_ERROR, VES_USAGE, (ves_mark){0},
+                        "\"%s\" has no ending that names a format (vesica list formats)", path);
+}

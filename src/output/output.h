@@ -7,7 +7,7 @@
 #include <stdio.h>
 
 #include "surface/figure.h"
-#include "vesica/diag.h"
+#include "vesica/figure.h"
 
 /* One file under src/output/format/ is one format: file name = ending = word after --to = symbol
  * ves_format_NAME. */
@@ -18,18 +18,6 @@ typedef struct ves_format {
 
 const ves_format *const *ves_formats(void); /* NULL-terminated, sorted by name */
 const ves_format *ves_format_find(const char *name);
-
-/* A shaded picture of the figure, depth-sorted, with the end curves drawn; by the ending of path (png, svg,
- * pdf). */
-typedef struct ves_view {
-    int width, height;            /* pixels; 0: 960 x 720 */
-    double azimuth, height_angle; /* radians: where the viewer stands; up is `up` (0 x, 1 y, 2 z) */
-    int up;                       /* -1: the axis that the end curves are strung along */
-    const char *colour;           /* "patch", "H", "K", "k1", "k2" */
-    bool orthographic;            /* parallel projection instead of a mild perspective */
-} ves_view;
-ves_view ves_view_default(void);
-ves_status ves_picture_write(ves_figure *figure, const ves_view *view, const char *path, ves_diag *diag);
 
 /* A JSON writer: keeps commas, indents, escapes; numbers in the shortest form that reads back exactly;
  * not-a-number and the infinities are written as null. key is NULL inside arrays. */

@@ -2,7 +2,9 @@
 #ifndef VES_PLAN_INSIDE_H
 #define VES_PLAN_INSIDE_H
 
-#include "plan/plan.h"
+#include "problem/problem.h"
+#include "surface/figure.h"
+#include "vesica/plan.h"
 #include "surface/forms.h"
 #include "surface/patch.h"
 

@@ -1,5 +1,3 @@
-#include "plan/plan.h"
-
 #include <math.h>
 #include <string.h>
 

@@ -11,6 +11,7 @@
 #include "curve/curve.h"
 #include "formula/formula.h"
 #include "vesica/measure.h"
+#include "vesica/problem.h"
 #include "vesica/search.h"
 
 typedef struct ves_variable {
@@ -144,7 +145,7 @@ typedef struct ves_validity_def {
     const int *monotone_patch;
 } ves_validity_def;
 
-typedef struct ves_problem {
+struct ves_problem {
     ves_arena arena;
     const char *path, *name, *title; /* name: the file's name without folder and ending */
     const char *text;                /* the file as run: with --set applied, comments kept */
@@ -177,26 +178,6 @@ typedef struct ves_problem {
     const ves_expect_def *expect;
     ves_search_options test;           /* what `test:` overrides: budget and stages */
     const ves_expect_def *test_expect; /* replaces expect in a test run when given */
-} ves_problem;
-
-/* One --set name=value. Name: a variable (then its start), a parameter, or a dotted path of keys
- * (patches.wall.operator.a). */
-typedef struct ves_override {
-    const char *name, *value;
-} ves_override;
-
-typedef struct ves_read_options {
-    int overrides;
-    const ves_override *override;
-    const ves_measure *const *plugin; /* NULL-terminated extra measures, or NULL */
-} ves_read_options;
-
-/* Reads a file, or a text under a name. Every error of the file is in diag, not only the first. On failure
- * *problem is NULL. */
-ves_status ves_problem_read(const char *path, const ves_read_options *options, ves_problem **problem,
-                            ves_diag *diag);
-ves_status ves_problem_read_text(const char *name, const char *text, size_t length,
-                                 const ves_read_options *options, ves_problem **problem, ves_diag *diag);
-void ves_problem_destroy(ves_problem *problem);
+};
 
 #endif

@@ -3,7 +3,9 @@
 #ifndef VES_STUDY_DESIGN_H
 #define VES_STUDY_DESIGN_H
 
-#include "plan/plan.h"
+#include "problem/problem.h"
+#include "surface/figure.h"
+#include "vesica/plan.h"
 
 /* One constraint: its two sides in SI units, and how far it is violated, relative to its size. */
 typedef struct ves_sides {

@@ -2,7 +2,9 @@
 #ifndef VES_STUDY_FACTS_H
 #define VES_STUDY_FACTS_H
 
-#include "plan/plan.h"
+#include "problem/problem.h"
+#include "surface/figure.h"
+#include "vesica/plan.h"
 
 /* A PDE patch at the start design. */
 typedef struct ves_patch_facts {

@@ -1,39 +1,13 @@
 /* Run: everything that one search produced, and the folder that keeps it.
  *
- * ves_study_run is the whole way from a problem to its best design: the quadrature is chosen once, one plan
+ * ves_run_create is the whole way from a problem to its best design: the quadrature is chosen once, one plan
  * is made for each job, the search runs, and the best is measured again on a grid twice as fine. A problem
  * without variables is measured once. */
 #ifndef VES_STUDY_RUN_H
 #define VES_STUDY_RUN_H
 
 #include "study/design.h"
-
-typedef enum ves_trace { VES_TRACE_ALL, VES_TRACE_ACCEPTED, VES_TRACE_NONE } ves_trace;
-
-typedef struct ves_run_options {
-    bool seeded; /* seed holds; else the problem's */
-    uint64_t seed;
-    long evaluations;   /* budget of the search, 0: the problem's */
-    int jobs;           /* threads, 0: as many as the machine has */
-    bool test;          /* what `test:` says replaces budget, stages and expect */
-    bool once;          /* no search and no `expect`: the start is measured */
-    bool prove;         /* with `once`: and checked as the best of a search is */
-    bool files;         /* make a run folder */
-    const char *parent; /* of numbered run folders, NULL: "runs" */
-    const char *out;    /* exactly this folder instead: new, or empty */
-    const char *name;   /* of numbered run folders, NULL: the problem's */
-    ves_trace trace;
-} ves_run_options;
-
-struct ves_run;
-
-/* Called from the thread that runs the study, but `stopped` from any. Values have the sign of the file. */
-typedef struct ves_run_hooks {
-    void (*begun)(void *data, const struct ves_run *run); /* all is ready, the search begins */
-    void (*progress)(void *data, const ves_progress *progress);
-    bool (*stopped)(void *data);
-    void *data;
-} ves_run_hooks;
+#include "vesica/run.h"
 
 typedef struct ves_run_optimum {
     double *x; /* [variables] */
@@ -65,7 +39,7 @@ typedef struct ves_run_times {
     ves_run_stage stage[VES_STAGES];
 } ves_run_times;
 
-typedef struct ves_run {
+struct ves_run {
     ves_arena arena;
     const ves_problem *problem;
     bool searched;    /* false: measured once */
@@ -92,14 +66,7 @@ typedef struct ves_run {
     ves_temperature *temperature;
     ves_run_times times;
     char *folder; /* NULL: none */
-} ves_run;
-
-/* diag gets warnings and errors. VES_OK: see interrupted, feasible, passed. VES_IO: the result holds, but its
- * folder could not be made or filled. VES_USAGE: `out` is there already. Whenever there is no result, *run is
- * NULL. */
-ves_status ves_study_run(const ves_problem *problem, const ves_run_options *options,
-                         const ves_run_hooks *hooks, ves_run **run, ves_diag *diag);
-void ves_run_destroy(ves_run *run);
+};
 
 /* The grid that a study would use; change is NAN when the problem gives it. */
 ves_status ves_study_quadrature(const ves_problem *problem, int quadrature[2], double *change,

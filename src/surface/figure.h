@@ -6,7 +6,8 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
-#include "vesica/mesh.h"
+#include "vesica/figure.h"
+#include "surface/mesh.h"
 #include "vesica/status.h"
 
 /* One patch on (nu + 1) x nv nodes when periodic in v, else (nu + 1) x (nv + 1): node (i, j) at i * columns +
@@ -27,14 +28,14 @@ typedef struct ves_figure_patch {
     bool cap[2];  /* the end is to be closed by a fan to its mean point */
 } ves_figure_patch;
 
-typedef struct ves_figure {
+struct ves_figure {
     ves_arena arena;
     const char *title;
     const char *unit; /* "m", or NULL when the problem has no units: what pictures write beside lengths */
     bool closed;      /* with caps, the patches enclose a volume */
     int patches;
     ves_figure_patch *patch;
-} ves_figure;
+};
 
 /* Welds the patches to one mesh in the figure's arena: ends on the same seam share vertices (by index, never
  * by distance), poles are one vertex, caps are fans, periodic patches close. vertex_patch and vertex_node
@@ -61,6 +62,5 @@ double ves_figure_u(const ves_figure_patch *patch, int node);
 double ves_figure_v(const ves_figure_patch *patch, int node);
 
 /* Frees a figure that ves_memory_take made, with all that its arena holds. */
-void ves_figure_destroy(ves_figure *figure);
 
 #endif

@@ -1,6 +1,6 @@
 /* A triangle mesh as plain arrays. */
-#ifndef VESICA_MESH_H
-#define VESICA_MESH_H
+#ifndef VES_SURFACE_MESH_H
+#define VES_SURFACE_MESH_H
 
 #ifdef __cplusplus
 extern "C" {

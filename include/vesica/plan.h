@@ -1,11 +1,16 @@
 /* Plan: a Problem made ready to be evaluated. Everything that can be known before x is known is paid once, in
  * ves_plan_create: x --bind--> numbers --curves--> modes --solve--> patches --sample--> samples --measure-->
  * m[] --judge--> Verdict An evaluation allocates nothing. One plan per thread; the problem is shared. */
-#ifndef VES_PLAN_PLAN_H
-#define VES_PLAN_PLAN_H
+#ifndef VESICA_PLAN_H
+#define VESICA_PLAN_H
 
-#include "problem/problem.h"
-#include "surface/figure.h"
+#include "vesica/figure.h"
+#include "vesica/problem.h"
+#include "vesica/verdict.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 typedef struct ves_plan ves_plan;
 
@@ -64,4 +69,7 @@ typedef struct ves_plan_counts {
 } ves_plan_counts;
 const ves_plan_counts *ves_plan_counted(const ves_plan *plan);
 
+#ifdef __cplusplus
+}
+#endif
 #endif
