@@ -130,8 +130,8 @@ static inline void shelf_formula(shelf *s, const char *const text[3])
 
 static inline ves_status shelf_try(shelf *s)
 {
-    return ves_curves_create(s->def, s->count, s->limit, s->number, s->varying, &s->arena, &s->curves,
-                             s->diag);
+    ves_curve_set set = {s->def, s->count, s->limit, s->number, s->varying};
+    return ves_curves_create(&set, &s->arena, &s->curves, s->diag);
 }
 
 static inline void shelf_ready(shelf *s)

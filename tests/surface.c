@@ -7,8 +7,8 @@
 
 #include "problem/problem.h"
 #include "surface/figure.h"
-#include "vesica/plan.h"
 #include "surface/grid.h"
+#include "vesica/plan.h"
 
 enum { X, XU, XV, XUU, XUV, XVV, FIELDS, POINTS = 40 };
 
@@ -159,9 +159,8 @@ Test(surface, the_remainder_meets_the_end_curves)
         ves_curves *curves;
         ves_arena arena = {0};
         const ves_problem *p = b.problem;
-        cr_assert_eq(ves_curves_create(p->curve, p->curves, p->curve_limit, ves_plan_slots(b.plan),
-                                       p->varying, &arena, &curves, NULL),
-                     VES_OK);
+        ves_curve_set set = {p->curve, p->curves, p->curve_limit, ves_plan_slots(b.plan), p->varying};
+        cr_assert_eq(ves_curves_create(&set, &arena, &curves, NULL), VES_OK);
         for (int i = 0; i < POINTS; i++) {
             double at[9], slope[9];
             int position = -1, field = -1;

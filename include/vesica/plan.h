@@ -49,6 +49,15 @@ double ves_plan_similarity(const ves_plan *plan);
 /* The sides of constraint k after ves_plan_measure or ves_plan_evaluate, in SI units. */
 void ves_plan_constraint(const ves_plan *plan, int index, double *left, double *right, double *violation);
 
+/* What a PDE patch is made of; zero for other kinds. tail: at the design last evaluated. */
+typedef struct ves_patch_facts {
+    int band;  /* modes in the data of its conditions */
+    int modes; /* of these solved one by one */
+    double
+        tail; /* share of the data (root of the sum of squares of each condition, the largest) beyond them */
+} ves_patch_facts;
+ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch);
+
 /* Exact values at scattered points of one patch, after a measure or evaluate: out[(f * 3 + c) * count + k], f
  * in the order X Xu Xv Xuu Xuv Xvv. Allocates. */
 ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u, const double *v,

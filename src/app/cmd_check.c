@@ -4,7 +4,6 @@
 
 #include "app/app.h"
 #include "app/table.h"
-#include "study/facts.h"
 #include "study/result.h"
 
 /* What check finds out besides the start design. */
@@ -49,8 +48,8 @@ static ves_status look(app *a, checked *c)
     ves_plan *plan;
     c->facts = ves_arena_take(&a->arena, (size_t)p->patches, sizeof *c->facts);
     if (!c->facts) return VES_MEMORY;
-    VES_TRY(ves_study_facts(p, c->run->start.slot, c->facts));
     VES_TRY(ves_study_plan(p, c->run->quadrature, &plan, NULL));
+    for (int k = 0; k < p->patches; k++) c->facts[k] = ves_plan_patch(plan, k);
     ves_status status = timings(a, c, plan);
     ves_plan_destroy(plan);
     return status;

@@ -155,17 +155,17 @@ static ves_status adjoints_place(const build *b)
     return VES_OK;
 }
 
-ves_status ves_curves_create(const ves_curve_def *def, int count, int limit, const double *number,
-                             const bool *varying, ves_arena *arena, ves_curves **curves, ves_diag *diag)
+ves_status ves_curves_create(const ves_curve_set *set, ves_arena *arena, ves_curves **curves, ves_diag *diag)
 {
     *curves = NULL;
     ves_curves *made = ves_arena_take(arena, 1, sizeof *made);
-    build b = {def, limit > 0 ? limit : VES_CURVE_MODES, number, varying, arena, diag, made};
-    if (made) made->curve = ves_arena_take(arena, (size_t)count, sizeof *made->curve);
+    int limit = set->limit > 0 ? set->limit : VES_CURVE_MODES;
+    build b = {set->def, limit, set->number, set->varying, arena, diag, made};
+    if (made) made->curve = ves_arena_take(arena, (size_t)set->count, sizeof *made->curve);
     if (!made || !made->curve) return no_memory(&b, (ves_mark){0});
-    made->count = count;
+    made->count = set->count;
     ves_status first = VES_OK;
-    for (int i = 0; i < count && first != VES_MEMORY; i++) {
+    for (int i = 0; i < set->count && first != VES_MEMORY; i++) {
         ves_status status = curve_create(&b, i);
         if (status == VES_MEMORY || first == VES_OK) first = status;
     }

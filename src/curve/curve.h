@@ -87,12 +87,18 @@ typedef struct ves_curve_def {
 /* Curves made ready for evaluation. Lives in an arena; one per thread. */
 typedef struct ves_curves ves_curves;
 
-/* defs in an order in which inputs come before their users; they must outlive the curves. number: the number
- * block at the start design, from which the operations learn their constants. varying[i] says whether number
- * block entry i depends on a variable: curves that read no varying number are evaluated here, once. limit:
- * the band limit of endless spectra; 0: VES_CURVE_MODES. */
-ves_status ves_curves_create(const ves_curve_def *def, int count, int limit, const double *number,
-                             const bool *varying, ves_arena *arena, ves_curves **curves, ves_diag *diag);
+/* What curves are made from. */
+typedef struct ves_curve_set {
+    const ves_curve_def *def; /* [count] in an order in which inputs come before their users */
+    int count;
+    int limit; /* most modes of a curve; <= 0: VES_CURVE_MODES */
+    const double
+        *number; /* the number block at the start design, from which the operations learn their constants */
+    const bool *varying; /* [number block] depends on a variable: curves that read no such number are
+                            evaluated once */
+} ves_curve_set;
+
+ves_status ves_curves_create(const ves_curve_set *set, ves_arena *arena, ves_curves **curves, ves_diag *diag);
 
 int ves_curves_modes(const ves_curves *curves, int index);
 bool ves_curves_varies(const ves_curves *curves, int index);

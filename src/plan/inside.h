@@ -4,9 +4,9 @@
 
 #include "problem/problem.h"
 #include "surface/figure.h"
-#include "vesica/plan.h"
 #include "surface/forms.h"
 #include "surface/patch.h"
+#include "vesica/plan.h"
 
 enum { LEVELS = 2 };
 

@@ -124,9 +124,13 @@ static ves_status patch_make(ves_plan *plan, int k, ves_diag *diag)
 {
     const ves_patch_def *d = &plan->problem->patch[k];
     ves_arena *arena = &plan->arena;
-    if (d->kind == VES_PATCH_FORMULA)
-        return ves_patch_formula(d->formula, d->u_range, d->v_range, plan->problem->slots, d->periodic,
-                                 &plan->bound, arena, &plan->patch[k]);
+    if (d->kind == VES_PATCH_FORMULA) {
+        ves_sheet_formula sheet = {.formula = {d->formula[0], d->formula[1], d->formula[2]},
+                                   .u_range = {d->u_range[0], d->u_range[1]},
+                                   .v_range = {d->v_range[0], d->v_range[1]},
+                                   .periodic = d->periodic};
+        return ves_patch_formula(&sheet, &plan->bound, arena, &plan->patch[k]);
+    }
     if (d->kind == VES_PATCH_POINTS)
         return ves_patch_points(d->rows, d->columns, d->points, d->periodic, &plan->bound, arena,
                                 &plan->patch[k]);
@@ -225,8 +229,8 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     VES_TRY(memory_take(plan));
     plan->similarity = 1;
     block_start(plan);
-    VES_TRY(ves_curves_create(p->curve, p->curves, p->curve_limit, plan->block, p->varying, &plan->arena,
-                              &plan->curves, diag));
+    ves_curve_set set = {p->curve, p->curves, p->curve_limit, plan->block, p->varying};
+    VES_TRY(ves_curves_create(&set, &plan->arena, &plan->curves, diag));
     plan->bound = (ves_bound){.number = plan->block, .varying = p->varying, .curves = plan->curves};
     for (int k = 0; k < p->patches; k++) VES_TRY(patch_make(plan, k, diag));
     plan_bind_patches(plan);
@@ -293,6 +297,13 @@ double ves_plan_similarity(const ves_plan *plan)
 const ves_plan_counts *ves_plan_counted(const ves_plan *plan)
 {
     return &plan->counts;
+}
+
+ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch)
+{
+    const ves_patch *p = plan->patch[patch];
+    return (ves_patch_facts){
+        .band = ves_patch_band(p), .modes = ves_patch_modes(p), .tail = ves_patch_tail(p)};
 }
 
 ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u, const double *v,

@@ -157,10 +157,8 @@ ves_status ves_descent_look(ves_descent *d, const double *u, bool slopes)
     }
     if (d->used >= d->budget) return halt(d, VES_INTERRUPTED);
     d->asked = false;
-    if (!all_finite(u, d->session->n)) {
-        d->last.status = VES_NO_NUMBER;
-        return VES_OK;
-    }
+    if (!all_finite(u, d->session->n))
+        return halt(d, VES_INTERRUPTED); /* SLSQP lost its way and would ask this for ever */
     for (int i = 0; i < d->session->n; i++) d->u[i] = u[i] < 0 ? 0 : u[i] > 1 ? 1 : u[i];
     ves_point_place(d->session->problem, d->u, d->x);
     ves_status status = judge(d, slopes);

@@ -6,8 +6,8 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
-#include "vesica/figure.h"
 #include "surface/mesh.h"
+#include "vesica/figure.h"
 #include "vesica/status.h"
 
 /* One patch on (nu + 1) x nv nodes when periodic in v, else (nu + 1) x (nv + 1): node (i, j) at i * columns +

@@ -18,6 +18,7 @@ typedef struct ves_patch_ops {
                   double *out, double *room);
     bool (*spine)(const ves_patch *patch, const ves_bound *bound, int count, const double *u, double *out,
                   double *room);
+    double (*tail)(const ves_patch *patch); /* NULL: 0 */
 } ves_patch_ops;
 
 struct ves_patch {

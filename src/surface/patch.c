@@ -20,6 +20,11 @@ int ves_patch_band(const ves_patch *patch)
     return patch->band;
 }
 
+double ves_patch_tail(const ves_patch *patch)
+{
+    return patch->ops->tail ? patch->ops->tail(patch) : 0;
+}
+
 ves_status ves_chart_create(ves_patch *patch, const ves_grid *grid, unsigned fields, ves_arena *arena,
                             ves_chart **chart)
 {

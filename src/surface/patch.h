@@ -42,9 +42,13 @@ ves_status ves_patch_pde(const ves_layout *layout, const ves_datum *datum, int a
                          const ves_bound *bound, ves_arena *arena, ves_patch **patch);
 
 /* X = (formula[0..2])(u', v') where u', v' run over the given ranges; arguments 0 and 1 of the formulas. */
-ves_status ves_patch_formula(const ves_formula *const formula[3], const double u_range[2],
-                             const double v_range[2], int slots, bool periodic, const ves_bound *bound,
-                             ves_arena *arena, ves_patch **patch);
+typedef struct ves_sheet_formula {
+    const ves_formula *formula[3];
+    double u_range[2], v_range[2];
+    bool periodic;
+} ves_sheet_formula;
+ves_status ves_patch_formula(const ves_sheet_formula *sheet, const ves_bound *bound, ves_arena *arena,
+                             ves_patch **patch);
 
 /* Interpolation of a grid of points by cubic splines: not-a-knot along u, and along v (periodic: closed).
  * points: number block index of the first of 3 * rows * columns numbers. */
@@ -53,8 +57,9 @@ ves_status ves_patch_points(int rows, int columns, int points, bool periodic, co
 
 bool ves_patch_periodic(const ves_patch *patch);
 bool ves_patch_varies(const ves_patch *patch);
-int ves_patch_modes(const ves_patch *patch); /* modes solved; 0 for other kinds */
-int ves_patch_band(const ves_patch *patch);  /* band limit of the data; 0 for other kinds */
+int ves_patch_modes(const ves_patch *patch);   /* modes solved; 0 for other kinds */
+int ves_patch_band(const ves_patch *patch);    /* band limit of the data; 0 for other kinds */
+double ves_patch_tail(const ves_patch *patch); /* share of the bound data that the remainder carries */
 
 /* fields: bit f for VES_FIELD_f, all that this chart will ever be asked for. The grid must outlive the chart.
  */
@@ -71,8 +76,8 @@ void ves_chart_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_pl
 void ves_chart_gather(ves_chart *chart, const ves_bound *bound, double *number_adjoint);
 void ves_patch_unbind(ves_patch *patch, const ves_bound *bound, double *number_adjoint);
 
-/* Exact values at scattered points: out[(f * 3 + c) * count + k]. room: ves_patch_point_room doubles, aligned to
- * 64 bytes. */
+/* Exact values at scattered points: out[(f * 3 + c) * count + k]. room: ves_patch_point_room doubles, aligned
+ * to 64 bytes. */
 long ves_patch_point_room(const ves_patch *patch);
 void ves_patch_point(const ves_patch *patch, const ves_bound *bound, int count, const double *u,
                      const double *v, double *out, double *room);

@@ -170,7 +170,8 @@ static void tables_eval(const pde *p, pde_chart *c, bool gradient)
     c->a_table = p->a_value;
     c->has_table_a = gradient;
     double a = p->a_value;
-    ves_weights_bind(&p->layout, a, p->modes, c->nup, c->u, c->table, gradient ? c->table_a : NULL, c->room);
+    ves_weights_bind(&p->layout, a, p->modes, c->nup, c->u,
+                     &(ves_table){c->table, gradient ? c->table_a : NULL, c->room});
     if (p->band == p->modes) return;
     ves_weights_mode(&p->layout, a * (p->modes + 1), c->nup, c->u, c->rest, gradient ? c->rest_a : NULL,
                      c->room);
@@ -366,7 +367,7 @@ static void point_sum(const pde *p, const double *table, const double *rest, int
 
 static void chunk_tables(const pde *p, const double *u, double *table, double *rest, double *room)
 {
-    ves_weights_bind(&p->layout, p->a_value, p->modes, CHUNK, u, table, NULL, room);
+    ves_weights_bind(&p->layout, p->a_value, p->modes, CHUNK, u, &(ves_table){table, NULL, room});
     ves_weights_mode(&p->layout, p->a_value * (p->modes + 1), CHUNK, u, rest, NULL, room);
 }
 
@@ -414,9 +415,37 @@ static bool pde_spine(const ves_patch *patch, const ves_bound *bound, int count,
     return true;
 }
 
-static const ves_patch_ops PDE = {pde_chart_create, pde_bind,    pde_prepare, pde_sample,
-                                  pde_clear,        pde_scatter, pde_gather,  pde_unbind,
-                                  pde_point_room,   pde_point,   pde_spine};
+/* The largest share of a condition's data, mean left out, that lies beyond the modes solved. */
+static double pde_tail(const ves_patch *patch)
+{
+    const pde *p = patch->state;
+    int width = stride(p->band);
+    double largest = 0;
+    for (int j = 0; j < p->conditions; j++) {
+        double all = 0, rest = 0;
+        for (int c = 0; c < 3; c++)
+            for (int k = 1; k < width; k++) {
+                double f = p->data[(j * 3 + c) * width + k];
+                all += f * f;
+                if (k > 2 * p->modes) rest += f * f;
+            }
+        if (all > 0) largest = fmax(largest, sqrt(rest / all));
+    }
+    return largest;
+}
+
+static const ves_patch_ops PDE = {.chart = pde_chart_create,
+                                  .bind = pde_bind,
+                                  .prepare = pde_prepare,
+                                  .sample = pde_sample,
+                                  .clear = pde_clear,
+                                  .scatter = pde_scatter,
+                                  .gather = pde_gather,
+                                  .unbind = pde_unbind,
+                                  .point_room = pde_point_room,
+                                  .point = pde_point,
+                                  .spine = pde_spine,
+                                  .tail = pde_tail};
 
 static int widest(const ves_datum *datum, int count, const ves_curves *curves)
 {

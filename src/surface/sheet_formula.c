@@ -111,22 +111,22 @@ static ves_status derive(drawn *d, int c, ves_arena *arena)
     return VES_OK;
 }
 
-ves_status ves_patch_formula(const ves_formula *const formula[3], const double u_range[2],
-                             const double v_range[2], int slots, bool periodic, const ves_bound *bound,
-                             ves_arena *arena, ves_patch **patch)
+ves_status ves_patch_formula(const ves_sheet_formula *sheet, const ves_bound *bound, ves_arena *arena,
+                             ves_patch **patch)
 {
     *patch = NULL;
     drawn *d = ves_arena_take(arena, 1, sizeof *d);
     ves_patch *made = ves_arena_take(arena, 1, sizeof *made);
     if (!d || !made) return VES_MEMORY;
-    *made = (ves_patch){.ops = &FORMULA, .periodic = periodic, .state = d};
-    memcpy(d->u_range, u_range, sizeof d->u_range);
-    memcpy(d->v_range, v_range, sizeof d->v_range);
+    *made = (ves_patch){.ops = &FORMULA, .periodic = sheet->periodic, .state = d};
+    memcpy(d->u_range, sheet->u_range, sizeof d->u_range);
+    memcpy(d->v_range, sheet->v_range, sizeof d->v_range);
     for (int c = 0; c < 3; c++) {
-        d->formula[0][c] = formula[c];
+        d->formula[0][c] = sheet->formula[c];
         VES_TRY(derive(d, c, arena));
-        for (int slot = 0; slot < slots; slot++)
-            made->varies = made->varies || (bound->varying[slot] && ves_formula_uses_slot(formula[c], slot));
+        for (int slot = ves_formula_slots(sheet->formula[c]) - 1; slot >= 0; slot--)
+            made->varies =
+                made->varies || (bound->varying[slot] && ves_formula_uses_slot(sheet->formula[c], slot));
     }
     *patch = made;
     return VES_OK;

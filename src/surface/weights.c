@@ -305,8 +305,7 @@ void ves_weights_mode(const ves_layout *layout, double lam, int nu, const double
     combine(layout, &p, N, lam, weight, weight_lam);
 }
 
-HOT void bind(const ves_layout *layout, int N, double a, int modes, const places *p, double *table,
-              double *table_a)
+HOT void bind(const ves_layout *layout, int N, double a, int modes, const places *p, const ves_table *table)
 {
     int row = 3 * 2 * N * p->nu;
     for (int i = 0; i < p->width; i++) {
@@ -314,23 +313,23 @@ HOT void bind(const ves_layout *layout, int N, double a, int modes, const places
         p->left_1[i] = exp(-a * p->u[i]), p->right_1[i] = exp(-a * p->mirrored[i]);
     }
     for (int n = 0; n <= modes; n++) {
-        double *weight_a = table_a ? table_a + (size_t)row * (size_t)n : NULL;
-        basis(p, N, a * n, N + (table_a != NULL));
-        combine(layout, p, N, a * n, table + (size_t)row * (size_t)n, weight_a);
+        double *weight_a = table->weight_a ? table->weight_a + (size_t)row * (size_t)n : NULL;
+        basis(p, N, a * n, N + (table->weight_a != NULL));
+        combine(layout, p, N, a * n, table->weight + (size_t)row * (size_t)n, weight_a);
         for (int k = 0; weight_a && k < row; k++) weight_a[k] *= n; /* d/da = n d/dlam */
         for (int i = 0; i < p->width; i++)
             p->left[i] *= p->left_1[i], p->right[i] *= p->right_1[i]; /* e^{-a n u} */
     }
 }
 
-void ves_weights_bind(const ves_layout *layout, double a, int modes, int nu, const double *u, double *table,
-                      double *table_a, double *room)
+void ves_weights_bind(const ves_layout *layout, double a, int modes, int nu, const double *u,
+                      const ves_table *table)
 {
-    places p = places_init(layout, nu, u, room);
+    places p = places_init(layout, nu, u, table->room);
     if (layout->power == 1)
-        bind(layout, 1, a, modes, &p, table, table_a);
+        bind(layout, 1, a, modes, &p, table);
     else
-        bind(layout, 2, a, modes, &p, table, table_a);
+        bind(layout, 2, a, modes, &p, table);
 }
 
 ves_status ves_layout_check(const ves_layout *layout)

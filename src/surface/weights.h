@@ -32,10 +32,16 @@ long ves_weights_size(const ves_layout *layout, int modes, int nu);
 /* Doubles of scratch, aligned to 64 bytes, for ves_weights_bind and ves_weights_mode. */
 long ves_weights_room(int nu);
 
-/* Fills the table for modes 0 .. modes at lam = a n (a >= 0; 0 is legal). table_a: the derivatives with
- * respect to a, or NULL. Allocates nothing. */
-void ves_weights_bind(const ves_layout *layout, double a, int modes, int nu, const double *u, double *table,
-                      double *table_a, double *room);
+/* A table and what goes with it. */
+typedef struct ves_table {
+    double *weight;   /* ves_weights_size doubles */
+    double *weight_a; /* their derivatives with respect to a, or NULL: not wanted */
+    double *room;     /* ves_weights_room doubles */
+} ves_table;
+
+/* Fills the table for modes 0 .. modes at lam = a n (a >= 0; 0 is legal). Allocates nothing. */
+void ves_weights_bind(const ves_layout *layout, double a, int modes, int nu, const double *u,
+                      const ves_table *table);
 
 /* One row of a table for a given lam: weight[(d * K + j) * nu + i]; weight_lam (or NULL) its derivative. The
  * remainder's table is this at lam = a (M + 1). */

@@ -1,0 +1,23 @@
+#!/bin/sh
+# The installed package, used from outside the tree: examples/search by find_package and by pkg-config, examples/plugin by
+# find_package and through --plugin.
+set -eu
+place=$(mktemp -d) && trap 'rm -rf "$place"' EXIT
+cmake --install "$2" --prefix "$place/usr" >"$place/log" || { cat "$place/log" && exit 1; }
+for example in search plugin; do
+  cp -r "$1/examples/$example" "$place/$example"
+  cmake -G Ninja -S "$place/$example" -B "$place/$example/build" -DCMAKE_PREFIX_PATH="$place/usr"
+  cmake --build "$place/$example/build"
+done
+program=$(find "$place/search/build" -maxdepth 1 -type f -perm -u+x)
+timeout 60 "$program"
+
+PKG_CONFIG_PATH=$(dirname "$(find "$place/usr" -name vesica.pc)") && export PKG_CONFIG_PATH
+cc -std=c17 "$1"/examples/search/*.c $(pkg-config --cflags --libs vesica) -o "$place/by_pkg_config"
+timeout 60 "$place/by_pkg_config" >"$place/second"
+timeout 60 "$program" | diff - "$place/second"
+
+plugin=$(find "$place/plugin/build" -maxdepth 1 -name '*.so')
+for problem in "$place"/plugin/*.yaml; do
+  (cd "$place" && "$place/usr/bin/vesica" run "$problem" --plugin "$plugin" --no-files)
+done
