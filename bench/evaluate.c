@@ -77,7 +77,7 @@ static void with_gradient(bed *b)
 static void bind(bed *b)
 {
     b->x[0] += 1e-12;
-    plan_bind(b->plan, b->x, 0);
+    ves_plan_bind(b->plan, b->x, 0);
 }
 
 static void bind_solve(bed *b)
@@ -96,7 +96,7 @@ static void bind_solve_sample(bed *b)
 {
     bind(b);
     plan_site *s = &b->plan->level[0].site[0];
-    site_sample(b->plan, s, s->needs[PROGRAM_JUDGE], false);
+    ves_site_sample(b->plan, s, s->needs[PROGRAM_JUDGE], false);
 }
 
 static void plain(bed *b)

@@ -509,6 +509,43 @@ Test(measure, what_has_no_number_is_refused_and_the_value_left_alone)
     }
 }
 
+/* What is not read need not be computed: no curvature where the formula has none, no area where nothing
+ * weighs. */
+Test(measure, asks_for_what_its_arguments_make_it_read_and_no_more)
+{
+    const struct {
+        const char *measure, *formula;
+        double smooth;
+        unsigned want;
+    } table[] = {{"min", "x + u", 0, VES_X},
+                 {"min", "k2", 0, VES_CURVATURE},
+                 {"min", "p*v", 0, VES_X},
+                 {"max", "H*z", 0, VES_X | VES_CURVATURE},
+                 {"max", "y", 0, VES_X},
+                 {"max", "y", 3, VES_X | VES_AREA},
+                 {"integral", "1", 0, VES_X | VES_AREA},
+                 {"integral", "x^2 + y^2", 0, VES_X | VES_AREA},
+                 {"integral", "K", 0, VES_AREA | VES_CURVATURE}};
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        rig r;
+        rig_open(&r);
+        rig_measure(&r, table[k].measure);
+        rig_formula(&r, "of", table[k].formula);
+        if (table[k].smooth > 0) rig_number(&r, "smooth", table[k].smooth);
+        unsigned got = r.measure->needs(&r.args);
+        cr_assert(got == table[k].want && !(got & ~r.measure->surface), "%s of %s: got %x, want %x",
+                  table[k].measure, table[k].formula, got, table[k].want);
+        rig_close(&r);
+    }
+    rig r;
+    rig_open(&r);
+    rig_measure(&r, "centroid");
+    cr_assert(r.measure->needs(&r.args) == (VES_X | VES_AREA));
+    rig_choice(&r, "of", 1);
+    cr_assert(r.measure->needs(&r.args) == (VES_X | VES_AREA | VES_NORMAL));
+    rig_close(&r);
+}
+
 Test(measure, only_the_centroid_of_a_volume_needs_a_closed_shape)
 {
     rig r;

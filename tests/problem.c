@@ -400,12 +400,12 @@ Test(problem, every_setting_arrives)
     cr_expect(p->quadrature[0] == 16 && p->quadrature[1] == 32 && p->search.seed == 9007199254740991u);
     const ves_stage *s = p->search.stage;
     cr_assert(p->search.stages == 4);
-    cr_expect(s[0].kind == VES_STAGE_ANNEAL && isnan(s[0].anneal.c0) && s[1].kind == VES_STAGE_POLISH);
+    cr_expect(s[0].kind == VES_STAGE_ANNEAL && s[0].anneal.c0 == 0 && s[1].kind == VES_STAGE_POLISH);
     cr_expect(!strcmp(s[1].polish.algorithm, "mma") && s[2].anneal.chains == 3 && s[2].anneal.s == 0.9 &&
-              !s[2].anneal.adapt);
+              s[2].anneal.fixed);
     cr_expect(fabs(s[2].anneal.c0 - 6.283185307179586) < 1e-15 && s[2].anneal.weight == 7 &&
               s[2].anneal.step == 0.2);
-    cr_expect(s[3].polish.evaluations == 5 && s[3].polish.starts == 2 && !s[3].polish.escape &&
+    cr_expect(s[3].polish.evaluations == 5 && s[3].polish.starts == 2 && s[3].polish.stay &&
               s[3].polish.x_tolerance == 1e-4);
     cr_expect(p->test.evaluations == 77 && p->test.stages == 1 && p->test.seed == p->search.seed &&
               p->test_expects == 1);
@@ -448,8 +448,17 @@ static const ves_key own_keys[] = {
     {.name = "about", .kind = VES_VECTOR, .fallback = 2, .about = "three"},
     {.name = "many", .kind = VES_COUNT, .fallback = 3, .about = "how many"},
     {.name = NULL}};
-static const ves_measure own = {
-    .name = "canham", .about = "a measure from outside", .unit = "1", .surface = VES_AREA, .keys = own_keys};
+static ves_status own_eval(const ves_measure_input *input, double *value)
+{
+    *value = input->number[input->args->arg[0].first];
+    return VES_OK;
+}
+static const ves_measure own = {.name = "canham",
+                                .about = "a measure from outside",
+                                .unit = "1",
+                                .surface = VES_AREA,
+                                .keys = own_keys,
+                                .eval = own_eval};
 static const ves_measure *const plugin[] = {&own, NULL};
 
 Test(problem, a_plugin_is_used_like_a_measure_of_the_house)
@@ -476,6 +485,25 @@ Test(problem, a_plugin_is_used_like_a_measure_of_the_house)
     ves_diag_text(diag, 0, message, sizeof message);
     cr_expect(strstr(message, "\"many\" is too large: 1000000000000") != NULL, "%s", message);
     ves_diag_destroy(diag);
+}
+
+Test(problem, a_plugin_that_is_not_sound_is_refused_before_the_file_is_read)
+{
+    static const ves_measure dumb = {.name = "dumb", .about = "no eval", .unit = "1", .surface = VES_AREA};
+    const ves_measure *const faulty[] = {&own, &dumb, NULL}, *const twice[] = {&own, &own, NULL};
+    const ves_read_options options[] = {{.plugin = faulty}, {.plugin = twice}};
+    const char *const want[] = {"the measure \"dumb\" from outside has no eval",
+                                "the measure \"canham\" from outside is there twice"};
+    for (int k = 0; k < 2; k++) {
+        ves_problem *p = NULL;
+        ves_diag *diag = ves_diag_create();
+        char message[2000] = "";
+        cr_expect(ves_problem_read_text("x", BASE, strlen(BASE), &options[k], &p, diag) == VES_RANGE && !p);
+        ves_diag_text(diag, 0, message, sizeof message);
+        cr_expect(strstr(message, want[k]) != NULL && ves_diag_count(diag) == 1, "got %s, want %s", message,
+                  want[k]);
+        ves_diag_destroy(diag);
+    }
 }
 
 Test(problem, a_variable_on_an_unused_curve_is_only_a_warning)

@@ -127,9 +127,32 @@ Test(problem_text, set_changes_the_value_and_keeps_all_else)
         {"seed", "7", "# head\n", "# head\nseed: 7\n"},
         {"patches.wall.modes", "4", "  wall:\n    ", "  wall:\n    modes: 4\n    "},
         {"curves.p1.circle.axis", "[0, 1, 0]", "{radius: 1}", "{axis: [0, 1, 0], radius: 1}"},
+        {"validity.self_intersection", "never", "# head\n", "# head\nvalidity: {self_intersection: never}\n"},
+        {"validity.least_radius.value", "0.1", "# head\n",
+         "# head\nvalidity: {least_radius: {value: 0.1}}\n"},
+        {"quadrature.u", "8", "# head\n", "# head\nquadrature: {u: 8}\n"},
+        {"test.evaluations", "8", "# head\n", "# head\ntest: {evaluations: 8}\n"},
+        {"start.a", "2", "# head\n", "# head\nstart: {a: 2}\n"},
     };
     for (size_t k = 0; k < sizeof row / sizeof *row; k++)
         expect_change(row[k][0], row[k][1], row[k][2], row[k][3]);
+}
+
+Test(problem_text, set_fills_a_section_that_is_empty)
+{
+    static const char *const section[] = {"validity:\n", "validity: {}\n", "validity:   # none\n",
+                                          "validity: {jacobian: any}\n", "validity:\n  jacobian: any\n"};
+    const ves_override list[] = {{"validity.self_intersection", "never"},
+                                 {"validity.least_radius.value", "0.25"}};
+    for (size_t k = 0; k < sizeof section / sizeof *section; k++) {
+        char text[1000];
+        snprintf(text, sizeof text, "%s%s", BASE, section[k]);
+        outcome o = set(text, 2, list);
+        cr_assert(o.status == VES_OK, "%s: %s", section[k], o.message);
+        cr_expect(!o.problem->validity.self_intersection && o.problem->validity.least_radius >= 0, "%s: %s",
+                  section[k], o.problem->text);
+        ves_problem_destroy(o.problem);
+    }
 }
 
 Test(problem_text, several_sets_meet_in_one_text)
@@ -175,6 +198,17 @@ Test(problem_text, errors_of_a_set_point_at_it)
         {"", "1", "--set :1:7: error: expected --set name=value\n"},
         {"curves.p9.circle", "1",
          "--set curves.p9.circle:1:7: error: the file has no \"curves.p9.circle\", did you mean \"p1\"?\n"},
+        {"patches.wal.operator.a", "2",
+         "--set patches.wal.operator.a:1:7: error: the file has no \"patches.wal.operator.a\", did you mean "
+         "\"wall\"?\n"},
+        {"variabels.a.1", "2",
+         "--set variabels.a.1:1:7: error: the file has no \"variabels.a.1\", did you mean \"variables\"?\n"},
+        {"measures.lid.area.over", "[wall]", "--set measures.lid.area.over:1:7: error: the file has no"},
+        {"validity..value", "2", "--set validity..value:1:7: error: the file has no"},
+        {"validity.self_intersecton", "never",
+         "--set validity.self_intersecton:1:7: error: unknown key \"self_intersecton\" in \"validity\", did "
+         "you mean "},
+        {"validity.self_intersection", "newer", "--set validity.self_intersection:1:34: error: "},
         {"patches.wall.operator.aa", "2",
          "--set patches.wall.operator.aa:1:7: error: unknown key \"aa\" in \"operator\", did you mean "
          "\"a\"?\n"},

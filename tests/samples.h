@@ -319,12 +319,13 @@ static inline void rig_formula(rig *r, const char *key, const char *text)
     arg->formula = &r->formula;
 }
 
-/* Shows the measure only what its descriptor asks for. */
+/* Shows the measure only what this instance asks for. */
 static inline ves_measure_input rig_input(rig *r)
 {
     for (int i = 0; i < r->samples; i++) {
         ves_site site = r->site[i].site;
-        unsigned mask = site == VES_SITE_SURFACE ? r->measure->surface
+        unsigned wanted = r->measure->needs ? r->measure->needs(&r->args) : r->measure->surface;
+        unsigned mask = site == VES_SITE_SURFACE ? wanted
                         : site == VES_SITE_CAP   ? r->measure->cap
                                                  : r->measure->curve;
         ves_adjoint unused;
@@ -335,7 +336,8 @@ static inline ves_measure_input rig_input(rig *r)
         r->sample[i] = &r->masked[i];
         r->adjoints[i] = &r->adjoint[i];
     }
-    return (ves_measure_input){r->samples, r->sample, &r->args, r->number, r->room};
+    return (ves_measure_input){
+        .samples = r->samples, .sample = r->sample, .args = &r->args, .number = r->number, .room = r->room};
 }
 
 static inline ves_status rig_try(rig *r, double *value)

@@ -140,7 +140,7 @@ Test(search, adapted_widths_meet_the_target_acceptance)
 
 Test(search, schedule_is_equation_7_3)
 {
-    const double s[] = {NAN, 0.3, 0.9, 0.999};
+    const double s[] = {0, 0.3, 0.9, 0.999};
     const long budget[] = {1, 7, 100, 5000, 1000000};
     for (int k = 0; k < 4; k++)
         for (int b = 0; b < 5; b++) {
@@ -152,7 +152,7 @@ Test(search, schedule_is_equation_7_3)
             cr_assert(c.trials >= 1 && c.temperatures * c.trials <= budget[b], "s %g, budget %ld", s[k],
                       budget[b]);
             cr_assert(c.s > 0 && c.s < 1);
-            if (isfinite(s[k])) cr_assert(c.s == s[k]);
+            if (s[k] > 0) cr_assert(c.s == s[k]);
             for (int m = 0; m < 20; m++) {
                 double got = ves_schedule_exponential.temperature(&c, m), want = 2.5 * exp((c.s - 1) * m);
                 cr_assert(fabs(got - want) <= 1e-15 * want); /* rounding */
@@ -201,7 +201,7 @@ Test(search, chains_at_one_temperature_are_in_equilibrium)
         ves_search_options o = only_anneal(80000);
         ves_anneal *a = &o.stage[0].anneal;
         o.seed = (uint64_t)k;
-        a->c0 = T, a->c_end = 1, a->s = 0.5, a->adapt = false, a->step = 0.02;
+        a->c0 = T, a->c_end = 1, a->s = 0.5, a->fixed = true, a->step = 0.02;
         ves_search_result *r;
         cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
         cr_assert(r->temperatures == 1 && r->temperature[0].c == T, "%d temperatures", r->temperatures);
@@ -361,7 +361,6 @@ Test(search, distinct_optima_are_listed_best_first)
     o.stage[0].anneal.chains = 24; /* quenched: ends everywhere */
     o.stage[0].anneal.evaluations = 1600;
     o.stage[0].anneal.c0 = 1e-3;
-    o.stage[0].anneal.adapt = true;
     o.stage[1] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = ves_polish_default()};
     ves_search_result *r;
     int most = 0;

@@ -208,9 +208,22 @@ Test(polish, a_saddle_is_left_both_ways)
     cr_expect(r->optimum[0].saddle == false && r->optimum[1].saddle == false);
     ves_search_result_destroy(r);
 
-    o.stage[0].polish.escape = false; /* then it stays, and does not know */
+    o.stage[0].polish.stay = true; /* then it stays, and does not know */
     cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
     cr_expect(fabs(r->value) < 1e-12 && r->optima == 1 && r->notes == 0);
+    ves_search_result_destroy(r);
+}
+
+/* The saddle on a wall: there is only one side. */
+Test(polish, a_saddle_left_to_one_side_is_told_so)
+{
+    given g = {
+        .evaluate = saddle, .n = 2, .lower = {0, -3}, .upper = {2, 2}, .start = {0, 1}, .gradients = true};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(fabs(r->value + 0.25) < 1e-12 && r->optima == 1, "value %.15g", r->value);
+    cr_expect(noted(r, "left it one way") && !noted(r, "both"), "%s", r->notes ? r->note[0] : "no note");
     ves_search_result_destroy(r);
 }
 
@@ -338,6 +351,116 @@ Test(polish, failed_candidates_do_not_end_a_descent)
     }
 }
 
+/* Linear down to a wall where nothing can be measured any more. */
+static ves_status cliff(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    if (x < *(double *)data) return VES_FOLDED;
+    v->value = x + y * y;
+    if (g) g[0] = 1, g[1] = 2 * y;
+    return VES_OK;
+}
+
+Test(polish, a_descent_that_ends_beside_a_failure_has_not_converged)
+{
+    const char *const by[] = {"slsqp", "mma", "auglag"};
+    const double edge[] = {0.1, 0.23, 0.529, 1.217};
+    for (int k = 0; k < 3; k++)
+        for (int e = 0; e < 4; e++) {
+            double wall = edge[e];
+            given g = {.evaluate = cliff,
+                       .n = 2,
+                       .lower = {-2, -2},
+                       .upper = {4, 4},
+                       .start = {3.1, 2.3},
+                       .gradients = true,
+                       .data = &wall};
+            ves_search_options o = only_polish(by[k]);
+            ves_search_result *r;
+            cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+            cr_expect(r->any && r->x[0] >= wall && r->x[0] < wall + 1e-4, "%s: x %g, wall %g", by[k], r->x[0],
+                      wall);
+            cr_expect(strstr(r->stop, "cannot be measured") && !strstr(r->stop, "converged"), "%s at %g: %s",
+                      by[k], wall, r->stop);
+            ves_search_result_destroy(r);
+        }
+}
+
+/* Nothing but the best can be measured for a while: a run then ends on a plateau of failures. */
+typedef struct eclipse {
+    long calls, from, to;
+    double best[3];
+} eclipse;
+
+static ves_status eclipsed(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    static const given two = {.n = 2};
+    eclipse *e = data;
+    double *best = e->best, x = ask->x[0], y = ask->x[1];
+    bool dark = ++e->calls >= e->from && e->calls < e->to;
+    if (dark && (x != best[0] || y != best[1])) return VES_DEGENERATE;
+    rosenbrock((void *)&two, worker, ask, v);
+    if (e->calls == 1 || v->value < best[2]) best[0] = x, best[1] = y, best[2] = v->value;
+    return VES_OK;
+}
+
+Test(polish, a_descent_that_fails_begins_again_at_its_own_best)
+{
+    const long length[] = {5, 20, 35, 45};
+    for (int k = 0; k < 4; k++) {
+        eclipse e = {.from = 15, .to = 15 + length[k]};
+        given g = problem_rosenbrock(2);
+        g.evaluate = eclipsed;
+        g.data = &e;
+        g.gradients = true;
+        ves_search_options o = only_polish("slsqp");
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(r->value < 1e-10, "%ld failures: value %g after %ld (%s)", r->failed, r->value,
+                  r->evaluations, r->stop);
+        ves_search_result_destroy(r);
+    }
+}
+
+/* Finite, but so steep that the algorithms' own arithmetic overflows: they ask for points that are no
+ * numbers.
+ */
+static ves_status overflowing(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    v->value = x * x + y;
+    v->constraint[0] = 1e200 * (x * y - 1);
+    if (!g) return VES_OK;
+    g[0] = 2 * x;
+    g[1] = 1;
+    v->jacobian[0] = 1e200 * y;
+    v->jacobian[1] = 1e200 * x;
+    return VES_OK;
+}
+
+Test(polish, an_algorithm_that_loses_its_way_is_stopped_and_told)
+{
+    const char *const by[] = {"mma", "auglag"};
+    for (int k = 0; k < 2; k++) {
+        given g = {.evaluate = overflowing,
+                   .n = 2,
+                   .m = 1,
+                   .lower = {-2, -2},
+                   .upper = {4, 4},
+                   .start = {3.1, 2.3},
+                   .equality = {true},
+                   .gradients = true};
+        ves_search_options o = only_polish(by[k]);
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(r->status == VES_OK && r->any && r->evaluations < 200, "%s: %ld", by[k], r->evaluations);
+        cr_expect(strstr(r->stop, "lost its way") && strstr(r->stop, "no number"), "%s", r->stop);
+        ves_search_result_destroy(r);
+    }
+}
+
 Test(polish, budget_is_kept_to)
 {
     const long budget[] = {1, 2, 5, 17, 100, 1000};
@@ -348,9 +471,7 @@ Test(polish, budget_is_kept_to)
             o.evaluations = budget[b];
             ves_search_result *r;
             cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
-            /* proofs of the start, the best and the optima come on top: at most 4 */
-            cr_expect(r->evaluations <= budget[b] + 4, "%s: %ld of %ld", algorithm[k], r->evaluations,
-                      budget[b]);
+            cr_expect(r->evaluations <= budget[b], "%s: %ld of %ld", algorithm[k], r->evaluations, budget[b]);
             ves_search_result_destroy(r);
         }
 }

@@ -14,6 +14,8 @@ extern "C" {
 
 struct ves_formula;
 
+/* The kinds marked internal hold compiled formulas, which nothing in these headers evaluates: they are for
+ * what is built in, and measures from outside that have such keys are refused. */
 typedef enum ves_kind {
     VES_NUMBER = 1, /* one number: a formula of variables, parameters and earlier names */
     VES_VECTOR,     /* [x, y, z], three numbers */
@@ -28,19 +30,23 @@ typedef enum ves_kind {
     VES_CURVE,      /* name of a curve */
     VES_PLACE,      /* name of a place, or of a curve */
     VES_PATCHES,    /* list of names of patches */
-    VES_FORMULAS,   /* three formulas of the surface coordinates */
-    VES_POINTWISE   /* one formula of x, y, z, H, K, k1, k2, u, v at a point of the surface */
+    VES_FORMULAS,   /* internal: three formulas of the surface coordinates */
+    VES_POINTWISE   /* internal: one formula of x, y, z, H, K, k1, k2, u, v at a point of the surface */
 } ves_kind;
 
-/* One key. A table ends with an entry whose name is NULL. */
+/* As the least value of a key: greater than 0. The smallest normal number, so that ranges stay closed. */
+#define VES_POSITIVE 2.2250738585072014e-308
+
+/* One key. A table ends with an entry of zeros: {0}. */
 typedef struct ves_key {
     const char *name;
     ves_kind kind;
     bool required;
     const char *unit; /* dimension of number kinds: "m", "1", "m^-1" ...; NULL: any, fixed by the first number
                          given */
-    double min, max;  /* closed range of number kinds and counts; both 0: unbounded */
-    double fallback;  /* when not given: number kinds, COUNT, FLAG (0, 1), CHOICE (index of the word) */
+    double min,
+        max; /* closed range of number kinds and counts; both 0: unbounded; min VES_POSITIVE: more than 0 */
+    double fallback;   /* when not given: number kinds, COUNT, FLAG (0, 1), CHOICE (index of the word) */
     const char *words; /* CHOICE: "one|two|three" */
     const char *about; /* one line for people */
 } ves_key;

@@ -42,27 +42,29 @@ typedef struct ves_search_problem {
 } ves_search_problem;
 
 /* The annealer of [Ugail 2011, 7.3-7.4]: Metropolis acceptance (7.4.1), exponential schedule c_m = c_0
- * e^{(s-1) m} (7.3), crude or exact penalty. 0 or NAN means "found from the data". */
+ * e^{(s-1) m} (7.3), crude or exact penalty. 0 (false) is the default of everything: = {0} is a whole
+ * annealing. */
 typedef struct ves_anneal {
-    long evaluations; /* budget of the stage, all chains together; 0: from the number of variables */
+    long evaluations; /* budget of the stage, all chains and proofs; 0: from the number of variables */
     int chains;       /* independent chains, 0: 4; never depends on the number of threads */
-    double c0;        /* first temperature; NAN: measured so that uphill moves are accepted at first */
-    double s; /* schedule (7.3), 0 < s < 1; NAN: so that the temperature falls to c_end within the budget */
-    double c_end; /* frozen at c_end * c0; NAN: 1e-4 */
-    double step;  /* first step width as a fraction of each range; NAN: 0.1, then adapted to the acceptance */
-    bool adapt;   /* step widths follow the acceptance (Corana et al. 1987); false: fixed, as in the book */
-    double weight; /* penalty per unit of violation; NAN: from the data, grown while the best is infeasible */
+    double c0;        /* first temperature; 0: measured so that uphill moves are accepted at first */
+    double s;     /* schedule (7.3), 0 < s < 1; 0: so that the temperature falls to c_end within the budget */
+    double c_end; /* frozen at c_end * c0; 0: 1e-4 */
+    double step;  /* first step width as a fraction of each range; 0: 0.1 */
+    bool fixed; /* one step width, as in the book; false: widths follow the acceptance (Corana et al. 1987) */
+    double weight; /* penalty per unit of violation; 0: from the data, grown while the best is infeasible */
 } ves_anneal;
 
 /* NLopt local search on scaled quantities: variables in [0, 1], objective over its largest slope, constraints
- * as they are. */
+ * as they are. 0 (NULL, false) is the default of everything. */
 typedef struct ves_polish {
     const char *algorithm; /* slsqp mma ccsa cobyla bobyqa sbplx auglag; NULL: by gradients and constraints */
-    long evaluations;      /* budget of the stage; 0: from the number of variables */
-    double x_tolerance;    /* relative to the range; NAN: 1e-9 */
-    double f_tolerance;    /* relative; NAN: 1e-12 */
+    long evaluations;      /* budget of the stage, proofs too; 0: from the number of variables */
+    double x_tolerance;    /* relative to the range; 0: 1e-9 */
+    double f_tolerance;    /* relative; 0: 1e-12 */
     int starts;            /* how many ends of the stage before are polished, best first; 0: all */
-    bool escape;           /* leave a saddle along a direction of negative curvature (needs gradients) */
+    bool stay;             /* on a saddle; false: leave it along a direction of negative curvature (needs
+                              gradients) */
 } ves_polish;
 
 typedef enum ves_stage_kind { VES_STAGE_ANNEAL, VES_STAGE_POLISH } ves_stage_kind;
@@ -76,10 +78,16 @@ typedef struct ves_stage {
 enum { VES_STAGES = 16 };
 
 typedef struct ves_search_options {
-    int stages; /* 0: auto = anneal with eight chains, then polish each end */
+    int stages; /* 0: auto = anneal with 8 chains (16 when there are gradients), then polish each end */
     ves_stage stage[VES_STAGES];
     uint64_t seed;
-    long evaluations; /* budget of the whole search; 0: the sum of the stages */
+
+    /* Budget of the whole search, never exceeded; 0: the sum of the stages, the start and 16 proofs. Proofs
+     * are evaluations like any other: an annealing asks for at most 16 and a tenth of its budget, a polish
+     * for at most 3; a twentieth of the whole, 1 to 16, is kept for the end, where the best and the optima
+     * are proved. A budget of 1 measures the start and proves nothing: the result is unproved, and counts as
+     * infeasible. */
+    long evaluations;
 } ves_search_options;
 
 ves_search_options ves_search_options_default(void);
@@ -141,8 +149,9 @@ typedef struct ves_search_result {
     const double *x; /* [n] best */
     double value, violation;
     const double *constraint; /* [m] at the best */
-    long evaluations, gradients;
-    const char *stop; /* a sentence: why the last stage ended */
+    long evaluations;         /* proofs too */
+    long gradients;
+    const char *stop; /* a sentence: why the last stage that began ended */
     int notes;
     const char *const
         *note; /* sentences: saddles left, bests refused by the proof and why, budget too short ... */

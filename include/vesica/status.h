@@ -22,6 +22,8 @@ extern "C" {
     X(SELF_INTERSECTS, 8, "the surface crosses itself")                                                      \
     X(COARSE, 9, "the value does not hold on a finer grid")                                                  \
     X(CUT, 10, "measuring stopped: already worse than the cutoff")                                           \
+    X(TOUCHES, 11, "the surface touches itself")                                                             \
+    X(OUTSIDE, 12, "a number of the problem has left its range")                                             \
     X(SYNTAX, -1, "the text cannot be read")                                                                 \
     X(NAME, -2, "a name is not known")                                                                       \
     X(UNIT, -3, "a dimension does not fit")                                                                  \

@@ -46,6 +46,21 @@ static bool pair(char *line, double *u, double *v)
     return ves_text_number(trimmed(line), u) && ves_text_number(trimmed(comma + 1), v);
 }
 
+/* The one heading that says what the columns are: u,v in this order. */
+static bool is_heading(const char *line)
+{
+    static const char mark[] = "\xEF\xBB\xBF"; /* of UTF-8, which spreadsheets put first */
+    char word[4] = "";
+    if (!strncmp(line, mark, 3)) line += 3;
+    size_t count = 0;
+    for (; *line; line++)
+        if (!strchr(" \t\"", *line)) {
+            if (count == 3) return false;
+            word[count++] = *line;
+        }
+    return strlen(word) == 3 && strchr("uU", word[0]) && word[1] == ',' && strchr("vV", word[2]);
+}
+
 static int points_read(app *a, FILE *in, const char *name, points *p)
 {
     char line[LINE], shown[LINE];
@@ -55,7 +70,7 @@ static int points_read(app *a, FILE *in, const char *name, points *p)
         memcpy(shown, text, strlen(text) + 1);
         if (!*text) continue;
         bool good = pair(text, &u, &v);
-        if (!good && number == 1) continue; /* a heading */
+        if (number == 1 && is_heading(shown)) continue;
         if (!good)
             return app_fail(a, VES_SYNTAX, "%s:%d: two numbers u,v are needed, found \"%s\"", name, number,
                             shown);
@@ -63,7 +78,8 @@ static int points_read(app *a, FILE *in, const char *name, points *p)
             return app_fail(a, VES_RANGE, "%s:%d: u = %g lies outside the patch (0 to 1)", name, number, u);
         if (!keep(p, u, v)) return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
     }
-    if (ferror(in)) return app_fail(a, VES_IO, "cannot read \"%s\": %s", name, strerror(errno));
+    if (ferror(in)) return app_fail(a, VES_USAGE, "cannot read \"%s\": %s", name, strerror(errno));
+    if (!p->count) return app_fail(a, VES_SYNTAX, "\"%s\" has no points: one u,v a line is needed", name);
     return APP_DONE;
 }
 

@@ -1,5 +1,6 @@
 /* Plugins: measures from shared objects. */
 #include <dlfcn.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "app/app.h"
@@ -18,6 +19,35 @@ static const char *as_file(app *a, const char *path)
     return strchr(path, '/') ? path : ves_arena_format(&a->arena, "./%s", path);
 }
 
+/* The members that the first version of the interface had: no plugin was built with fewer. */
+static const size_t FIRST = offsetof(ves_measure, gradient) + sizeof((ves_measure *)NULL)->gradient;
+
+static ves_status check(app *a, const char *path, const ves_plugin *plugin)
+{
+    if (plugin->abi != VES_ABI) {
+        app_fail(a, VES_ABSENT,
+                 "the plugin \"%s\" was built for interface %d; this is vesica %s with interface %d: build "
+                 "it again",
+                 path, plugin->abi, VESICA_VERSION, VES_ABI);
+        return VES_ABSENT;
+    }
+    if (plugin->size > sizeof(ves_measure)) {
+        app_fail(
+            a, VES_ABSENT,
+            "the plugin \"%s\" was built for a newer vesica (its measures have %zu bytes, those of vesica %s "
+            "%zu): build it again with the headers of this one",
+            path, plugin->size, VESICA_VERSION, sizeof(ves_measure));
+        return VES_ABSENT;
+    }
+    if (plugin->size >= FIRST && plugin->name && plugin->measure) return VES_OK;
+    app_fail(a, VES_USAGE,
+             plugin->size < FIRST ? "the plugin \"%s\" does not say how large its measures are: "
+                                    ".size = sizeof(ves_measure)"
+                                  : "the plugin \"%s\" lacks its name or its list of measures",
+             path);
+    return VES_USAGE;
+}
+
 static ves_status open_one(app *a, const char *path, const ves_plugin **plugin)
 {
     const char *file = as_file(a, path);
@@ -33,18 +63,31 @@ static ves_status open_one(app *a, const char *path, const ves_plugin **plugin)
         app_fail(a, VES_USAGE, "\"%s\" is no plugin of vesica: it has no ves_plugin_entry", path);
         return VES_USAGE;
     }
-    if ((*plugin)->abi == VES_ABI) return VES_OK;
-    app_fail(
-        a, VES_ABSENT,
-        "the plugin \"%s\" was built for interface %d; this is vesica %s with interface %d: build it again",
-        path, (*plugin)->abi, VESICA_VERSION, VES_ABI);
-    return VES_ABSENT;
+    return check(a, path, *plugin);
+}
+
+/* A descriptor as this program knows it: members that the plugin was built without are 0. */
+static const ves_measure *copy(app *a, const ves_plugin *plugin, const ves_measure *measure)
+{
+    ves_measure *m = ves_arena_take(&a->arena, 1, sizeof *m);
+    if (!m) {
+        app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
+        return NULL;
+    }
+    memcpy(m, measure, plugin->size);
+    return m;
 }
 
 static ves_status add(app *a, const char *path, const ves_plugin *plugin, int *count)
 {
     for (int k = 0; k < listed(plugin); k++) {
-        const ves_measure *m = plugin->measure[k];
+        const ves_measure *m = copy(a, plugin, plugin->measure[k]);
+        if (!m) return VES_MEMORY;
+        ves_status status = ves_measure_check(m, a->diag);
+        if (status != VES_OK) {
+            ves_diag_add(a->diag, VES_NOTE, status, (ves_mark){0}, "it is in the plugin \"%s\"", path);
+            return status;
+        }
         if (ves_measure_find(m->name, a->measure)) {
             app_fail(a, VES_USAGE,
                      "the plugin \"%s\" brings a measure \"%s\", but there is one of that name already", path,

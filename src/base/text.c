@@ -111,7 +111,8 @@ void ves_text_shortest(double value, char buffer[32])
         snprintf(buffer, 32, "%s", isnan(value) ? "nan" : value > 0 ? "inf" : "-inf");
         return;
     }
-    for (int digits = 15; digits <= 17; digits++) { /* %g drops zeros at the end: 15 digits give every shorter text too */
+    for (int digits = 15; digits <= 17;
+         digits++) { /* %g drops zeros at the end: 15 digits give every shorter text too */
         snprintf(buffer, 32, "%.*g", digits, value);
         if (strtod(buffer, NULL) == value) break;
     }

@@ -26,31 +26,51 @@ size_t ves_pointwise_nodes(const ves_measure_input *input)
     return nodes;
 }
 
-static ves_principal fill(const ves_samples *s, int n, double at[NAMES])
+unsigned ves_pointwise_needs(const ves_args *args)
 {
-    ves_principal k = ves_principal_init(s->H[n], s->K[n]);
-    at[AT_X] = s->X[0][n], at[AT_Y] = s->X[1][n], at[AT_Z] = s->X[2][n];
-    at[AT_H] = s->H[n], at[AT_K] = s->K[n], at[AT_K1] = k.k1, at[AT_K2] = k.k2;
+    const ves_formula *formula = args->arg[0].formula[0];
+    unsigned needs = 0;
+    for (int k = AT_X; k <= AT_Z; k++)
+        if (ves_formula_uses_argument(formula, k)) needs |= VES_X;
+    for (int k = AT_H; k <= AT_K2; k++)
+        if (ves_formula_uses_argument(formula, k)) needs |= VES_CURVATURE;
+    return needs ? needs : VES_X;
+}
+
+ves_pointwise ves_pointwise_init(const ves_measure_input *input)
+{
+    return (ves_pointwise){input, ves_pointwise_needs(input->args)};
+}
+
+/* What the formula does not read stays 0: its planes may be there for others, but not filled. */
+static ves_principal fill(const ves_pointwise *p, const ves_samples *s, int n, double at[NAMES])
+{
+    ves_principal k = {0};
+    for (int c = 0; c < 3 && p->needs & VES_X; c++) at[AT_X + c] = s->X[c][n];
+    if (p->needs & VES_CURVATURE) {
+        k = ves_principal_init(s->H[n], s->K[n]);
+        at[AT_H] = s->H[n], at[AT_K] = s->K[n], at[AT_K1] = k.k1, at[AT_K2] = k.k2;
+    }
     at[AT_U] = s->u[n % s->nu], at[AT_V] = s->v[n / s->nu];
     return k;
 }
 
-double ves_pointwise_eval(const ves_measure_input *input, const ves_samples *s, int node)
+double ves_pointwise_eval(const ves_pointwise *p, const ves_samples *s, int node)
 {
-    double at[NAMES];
-    fill(s, node, at);
-    return ves_formula_eval(formula_of(input), input->number, at, input->room);
+    double at[NAMES] = {0};
+    fill(p, s, node, at);
+    return ves_formula_eval(formula_of(p->input), p->input->number, at, p->input->room);
 }
 
-double ves_pointwise_gradient(const ves_measure_input *input, const ves_samples *s, int node, double weight,
+double ves_pointwise_gradient(const ves_pointwise *p, const ves_samples *s, int node, double weight,
                               const ves_adjoint *adjoint, double *number_adjoint)
 {
-    double at[NAMES], g[NAMES] = {0};
-    ves_principal k = fill(s, node, at);
-    double value =
-        ves_formula_gradient(formula_of(input), input->number, at, weight, number_adjoint, g, input->room);
-    if (!adjoint->X[0]) return value;
-    for (int c = 0; c < 3; c++) adjoint->X[c][node] += g[AT_X + c];
+    double at[NAMES] = {0}, g[NAMES] = {0};
+    ves_principal k = fill(p, s, node, at);
+    double value = ves_formula_gradient(formula_of(p->input), p->input->number, at, weight, number_adjoint, g,
+                                        p->input->room);
+    for (int c = 0; c < 3 && p->needs & VES_X && adjoint->X[0]; c++) adjoint->X[c][node] += g[AT_X + c];
+    if (!(p->needs & VES_CURVATURE) || !adjoint->H) return value;
     adjoint->H[node] += g[AT_H];
     adjoint->K[node] += g[AT_K];
     ves_principal_gradient(&k, g[AT_K1], g[AT_K2], &adjoint->H[node], &adjoint->K[node]);
@@ -59,12 +79,13 @@ double ves_pointwise_gradient(const ves_measure_input *input, const ves_samples 
 
 ves_status ves_pointwise_largest(const ves_measure_input *input, double sign, ves_pointwise_top *top)
 {
+    ves_pointwise p = ves_pointwise_init(input);
     *top = (ves_pointwise_top){.sample = -1, .value = -HUGE_VAL};
     for (int i = 0; i < input->samples; i++) {
         const ves_samples *s = input->sample[i];
         if (s->site != VES_SITE_SURFACE) continue;
         for (int n = 0; n < s->count; n++) {
-            double value = sign * ves_pointwise_eval(input, s, n);
+            double value = sign * ves_pointwise_eval(&p, s, n);
             if (!isfinite(value)) return VES_NO_NUMBER;
             if (value > top->value) *top = (ves_pointwise_top){i, n, value};
         }

@@ -7,15 +7,25 @@
 
 enum { VES_POINTWISE_SURFACE = VES_X | VES_AREA | VES_CURVATURE };
 
+/* Which of X and CURVATURE the formula reads; X when it reads neither, since something must be sampled. */
+unsigned ves_pointwise_needs(const ves_args *args);
+
 /* Doubles of scratch of the formula, and nodes of all surfaces. */
 size_t ves_pointwise_scratch(const ves_measure_input *input);
 size_t ves_pointwise_nodes(const ves_measure_input *input);
 
-double ves_pointwise_eval(const ves_measure_input *input, const ves_samples *s, int node);
+/* The formula of one instance; made anew for each evaluation. */
+typedef struct ves_pointwise {
+    const ves_measure_input *input;
+    unsigned needs;
+} ves_pointwise;
+
+ves_pointwise ves_pointwise_init(const ves_measure_input *input);
+double ves_pointwise_eval(const ves_pointwise *pointwise, const ves_samples *s, int node);
 
 /* Adds weight * df / d (X, H, K at the node) to the planes, where the adjoint has them, and weight * df / d
  * slot. Returns the value of the formula. */
-double ves_pointwise_gradient(const ves_measure_input *input, const ves_samples *s, int node, double weight,
+double ves_pointwise_gradient(const ves_pointwise *pointwise, const ves_samples *s, int node, double weight,
                               const ves_adjoint *adjoint, double *number_adjoint);
 
 /* The largest value of sign * formula over the nodes; VES_NO_NUMBER: somewhere it is no number. */

@@ -13,7 +13,7 @@ static void parameters_bind(ves_plan *plan)
                 ves_formula_eval(p->parameter[k].formula, plan->block, NULL, plan->formula_room);
 }
 
-void plan_bind(ves_plan *plan, const double *x, double unknown)
+void ves_plan_bind(ves_plan *plan, const double *x, double unknown)
 {
     const ves_problem *p = plan->problem;
     memcpy(plan->block, x, sizeof *x * (size_t)p->variables);
@@ -23,10 +23,10 @@ void plan_bind(ves_plan *plan, const double *x, double unknown)
         if (p->varying[p->slots + k])
             plan->block[p->slots + k] = ves_formula_eval(p->number[k], plan->block, NULL, plan->formula_room);
     ves_curves_bind(plan->curves, plan->block);
-    plan_bind_patches(plan);
+    ves_plan_bind_patches(plan);
 }
 
-void plan_bind_patches(ves_plan *plan)
+void ves_plan_bind_patches(ves_plan *plan)
 {
     for (int k = 0; k < plan->problem->patches; k++) ves_patch_bind(plan->patch[k], &plan->bound);
 }
@@ -34,7 +34,7 @@ void plan_bind_patches(ves_plan *plan)
 /* Numbers are formulas of slots, parameters formulas of earlier slots: followed back in the reverse order,
  * what remains is the derivative with respect to variables and unknown (the places of the parameters are left
  * as rubbish). */
-void plan_pull(ves_plan *plan, const double *number_adjoint, double *slot_row)
+void ves_plan_pull(ves_plan *plan, const double *number_adjoint, double *slot_row)
 {
     const ves_problem *p = plan->problem;
     int first = p->variables + p->unknowns;

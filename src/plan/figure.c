@@ -54,7 +54,7 @@ static ves_status patch_sample(ves_plan *plan, ves_figure *figure, int k, double
         ves_chart_sample(chart, &tile, plan->field);
         for (int p = 0; p < VES_FIELDS * 3; p++)
             for (int n = 0; n < tile.rows * VES_LANES; n++) plan->field->at[p][n] *= plan->similarity;
-        ves_forms_eval(&tile, plan->field, f->side, plan->form);
+        ves_forms_eval(&tile, plan->field, f->side, true, plan->form);
         take(plan, f, &tile);
     }
     return VES_OK;
@@ -108,9 +108,9 @@ static ves_status patch_figure(ves_plan *plan, ves_figure *figure, int k, int nu
                             .periodic = periodic,
                             .side = plan->side[k]};
     for (int end = 0; end < 2; end++) {
-        f->edge[end] = end_curve(plan, k, end);
-        f->pole[end] = end_is_pole(plan, k, end);
-        f->cap[end] = end_is_capped(plan, k, end);
+        f->edge[end] = ves_end_curve(plan, k, end);
+        f->pole[end] = ves_end_is_pole(plan, k, end);
+        f->cap[end] = ves_end_is_capped(plan, k, end);
     }
     VES_TRY(patch_reserve(figure, f));
     VES_TRY(patch_sample(plan, figure, k, 0, take_points));
@@ -128,7 +128,7 @@ static int finest(const ves_plan *plan)
     return band;
 }
 
-ves_status plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **out)
+ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **out)
 {
     *out = NULL;
     const ves_problem *p = plan->problem;
@@ -155,10 +155,10 @@ ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_
                            ves_diag *diag)
 {
     *figure = NULL;
-    ves_status status = plan_forward(plan, x, 0, PROGRAM_JUDGE, false);
+    ves_status status = ves_plan_forward(plan, x, 0, PROGRAM_JUDGE, false);
     if (status > VES_OK)
         ves_diag_add(diag, VES_WARNING, status, (ves_mark){0}, "the shape is drawn although %s",
                      ves_status_text(status));
     if (status < VES_OK || status == VES_NO_ROOT) return status;
-    return plan_figure_make(plan, nu, nv, figure);
+    return ves_plan_figure_make(plan, nu, nv, figure);
 }

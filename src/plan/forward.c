@@ -8,7 +8,7 @@ static ves_status sample(ves_plan *plan, int index, plan_program which, bool gra
 {
     plan_level *l = &plan->level[index];
     for (int k = 0; k < l->sites; k++)
-        VES_TRY(site_sample(plan, &l->site[k], l->site[k].needs[which], gradient));
+        VES_TRY(ves_site_sample(plan, &l->site[k], l->site[k].needs[which], gradient));
     return VES_OK;
 }
 
@@ -17,7 +17,10 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
     const ves_problem *p = plan->problem;
     for (int m = 0; m < p->measures; m++) {
         if (!plan->runs[which][m] || (p->measure[m].measure->cost > 0) != dear) continue;
-        VES_TRY(p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]));
+        ves_status status =
+            p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]);
+        if (status > VES_OUTSIDE) status = VES_NO_NUMBER; /* a plugin's own word for "cannot be measured" */
+        VES_TRY(status);
         if (!isfinite(plan->value[m])) return VES_NO_NUMBER;
     }
     return VES_OK;
@@ -27,11 +30,12 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
 static ves_status measure(ves_plan *plan, int index, plan_program which)
 {
     VES_TRY(measure_cost(plan, index, which, false));
-    if (which == PROGRAM_JUDGE && plan->any_dear && plan_cheap_violation(plan) > plan->cutoff) return VES_CUT;
+    if (which == PROGRAM_JUDGE && plan->any_dear && ves_plan_cheap_violation(plan) > plan->cutoff)
+        return VES_CUT;
     return measure_cost(plan, index, which, true);
 }
 
-double plan_formula(ves_plan *plan, const ves_formula *formula)
+double ves_plan_formula(ves_plan *plan, const ves_formula *formula)
 {
     return ves_formula_eval(formula, plan->block, plan->value, plan->formula_room);
 }
@@ -44,15 +48,25 @@ static ves_status scale(ves_plan *plan, int index, bool gradient)
     if (!sc) return VES_OK;
     VES_TRY(sample(plan, index, PROGRAM_SCALE, gradient));
     VES_TRY(measure(plan, index, PROGRAM_SCALE));
-    double ratio = plan_formula(plan, sc->target) / plan->value[sc->measure];
+    double ratio = ves_plan_formula(plan, sc->target) / plan->value[sc->measure];
     double s = pow(ratio, 1. / plan->problem->measure[sc->measure].measure->degree);
     if (!(ratio > 0) || !isfinite(s)) return VES_NO_ROOT;
     plan->similarity = s;
     return VES_OK;
 }
 
-ves_status plan_run(ves_plan *plan, int index, plan_program which, bool gradient)
+/* The smoothing parameter of every patch must stay >= 0; it may be a formula. */
+static bool outside(const ves_plan *plan)
 {
+    const ves_problem *p = plan->problem;
+    for (int k = 0; k < p->patches; k++)
+        if (p->patch[k].kind == VES_PATCH_PDE && !(plan->block[p->patch[k].a] >= 0)) return true;
+    return false;
+}
+
+ves_status ves_plan_run(ves_plan *plan, int index, plan_program which, bool gradient)
+{
+    if (outside(plan)) return VES_OUTSIDE;
     VES_TRY(scale(plan, index, gradient));
     VES_TRY(sample(plan, index, which, gradient));
     return measure(plan, index, which);
@@ -61,9 +75,10 @@ ves_status plan_run(ves_plan *plan, int index, plan_program which, bool gradient
 /* left - right of solve's equation when the unknown is h. */
 static ves_status residual(ves_plan *plan, const double *x, int index, double h, double *value)
 {
-    plan_bind(plan, x, h);
-    VES_TRY(plan_run(plan, index, PROGRAM_SOLVE, false));
-    *value = plan_formula(plan, plan->problem->solve->left) - plan_formula(plan, plan->problem->solve->right);
+    ves_plan_bind(plan, x, h);
+    VES_TRY(ves_plan_run(plan, index, PROGRAM_SOLVE, false));
+    *value = ves_plan_formula(plan, plan->problem->solve->left) -
+             ves_plan_formula(plan, plan->problem->solve->right);
     return isfinite(*value) ? VES_OK : VES_NO_NUMBER;
 }
 
@@ -110,10 +125,10 @@ static ves_status solve(ves_plan *plan, const double *x, int index, double *root
     return VES_OK;
 }
 
-ves_status plan_forward(ves_plan *plan, const double *x, int index, plan_program which, bool gradient)
+ves_status ves_plan_forward(ves_plan *plan, const double *x, int index, plan_program which, bool gradient)
 {
     double unknown = 0;
     if (plan->problem->solve) VES_TRY(solve(plan, x, index, &unknown));
-    plan_bind(plan, x, unknown);
-    return plan_run(plan, index, which, gradient);
+    ves_plan_bind(plan, x, unknown);
+    return ves_plan_run(plan, index, which, gradient);
 }

@@ -25,7 +25,7 @@ static double sweep(ves_plan *plan, int index, plan_program which)
     double by_similarity = 0;
     ves_curves_clear(plan->curves);
     for (int k = 0; k < p->patches; k++) ves_patch_clear(plan->patch[k]);
-    for (int k = 0; k < l->sites; k++) site_clear(&l->site[k], l->site[k].slopes[which]);
+    for (int k = 0; k < l->sites; k++) ves_site_clear(&l->site[k], l->site[k].slopes[which]);
     for (int m = 0; m < p->measures; m++) {
         if (!plan->runs[which][m] || plan->measure_adjoint[m] == 0) continue;
         const plan_instance *in = &l->instance[m];
@@ -33,17 +33,17 @@ static double sweep(ves_plan *plan, int index, plan_program which)
                                         plan->block_adjoint);
     }
     for (int k = 0; k < l->sites; k++)
-        by_similarity += site_scatter(plan, &l->site[k], l->site[k].slopes[which]);
+        by_similarity += ves_site_scatter(plan, &l->site[k], l->site[k].slopes[which]);
     for (int k = 0; k < l->sites; k++)
-        if (l->site[k].slopes[which]) site_gather(plan, &l->site[k]);
+        if (l->site[k].slopes[which]) ves_site_gather(plan, &l->site[k]);
     for (int k = 0; k < p->patches; k++) ves_patch_unbind(plan->patch[k], &plan->bound, plan->block_adjoint);
     ves_curves_scatter(plan->curves, plan->block, plan->block_adjoint);
     return by_similarity;
 }
 
 /* One output, sum of seed[k] * formula[k], into its row. */
-void plan_gradient(ves_plan *plan, int index, int output, const ves_formula *const *formula,
-                   const double *seed, int count, plan_program which)
+void ves_plan_gradient(ves_plan *plan, int index, int output, const ves_formula *const *formula,
+                       const double *seed, int count, plan_program which)
 {
     const ves_problem *p = plan->problem;
     memset(plan->measure_adjoint, 0, sizeof(double) * (size_t)p->measures);
@@ -53,7 +53,7 @@ void plan_gradient(ves_plan *plan, int index, int output, const ves_formula *con
         ves_formula_gradient(formula[k], plan->block, plan->value, seed[k], plan->block_adjoint,
                              plan->measure_adjoint, plan->formula_room);
     plan->row_similarity[output] = sweep(plan, index, which);
-    plan_pull(plan, plan->block_adjoint, row(plan, output));
+    ves_plan_pull(plan, plan->block_adjoint, row(plan, output));
 }
 
 /* s = (target / m)^(1/d) with m on the unscaled shape: ds = s / d (d target / target - dm / m). */
@@ -64,10 +64,9 @@ static ves_status follow_scale(ves_plan *plan, int index, int outputs)
     plan->similarity = 1;
     plan_level *l = &plan->level[index];
     for (int k = 0; k < l->sites; k++)
-        VES_TRY(site_sample(plan, &l->site[k], l->site[k].needs[PROGRAM_SCALE], true));
-    VES_TRY(plan->problem->measure[sc->measure].measure->eval(&l->instance[sc->measure].input,
-                                                              &plan->value[sc->measure]));
-    double m = plan->value[sc->measure], target = plan_formula(plan, sc->target);
+        VES_TRY(ves_site_sample(plan, &l->site[k], l->site[k].needs[PROGRAM_SCALE], true));
+    double m, target = ves_plan_formula(plan, sc->target);
+    VES_TRY(plan->problem->measure[sc->measure].measure->eval(&l->instance[sc->measure].input, &m));
     double f = s / plan->problem->measure[sc->measure].measure->degree;
     memset(plan->measure_adjoint, 0, sizeof(double) * (size_t)plan->problem->measures);
     memset(plan->block_adjoint, 0, sizeof(double) * (size_t)plan->problem->block);
@@ -76,7 +75,7 @@ static ves_status follow_scale(ves_plan *plan, int index, int outputs)
     sweep(plan, index, PROGRAM_SCALE);
     ves_formula_gradient(sc->target, plan->block, plan->value, f / target, plan->block_adjoint, NULL,
                          plan->formula_room);
-    plan_pull(plan, plan->block_adjoint, plan->unit_row);
+    ves_plan_pull(plan, plan->block_adjoint, plan->unit_row);
     for (int o = 0; o < outputs; o++)
         for (int k = 0; k < slots(plan); k++) row(plan, o)[k] += plan->row_similarity[o] * plan->unit_row[k];
     plan->similarity = s;
@@ -96,13 +95,13 @@ static void follow_solve(ves_plan *plan, int outputs)
 
 /* Makes the rows of all outputs total derivatives. With solve:, the residual's row is computed here as one
  * more output. */
-ves_status plan_follow(ves_plan *plan, int index, int outputs)
+ves_status ves_plan_follow(ves_plan *plan, int index, int outputs)
 {
     const ves_solve *solve = plan->problem->solve;
     if (solve) {
         const ves_formula *formula[2] = {solve->left, solve->right};
         const double seed[2] = {1, -1};
-        plan_gradient(plan, index, outputs++, formula, seed, 2, PROGRAM_JUDGE);
+        ves_plan_gradient(plan, index, outputs++, formula, seed, 2, PROGRAM_JUDGE);
     }
     if (plan->problem->scale) VES_TRY(follow_scale(plan, index, outputs));
     if (solve) follow_solve(plan, outputs);

@@ -51,6 +51,11 @@ typedef struct plan_level {
     plan_instance *instance; /* [measures] */
 } plan_level;
 
+/* What was found at the ends of a sheet. */
+typedef struct plan_sheet {
+    bool pole[2];
+} plan_sheet;
+
 struct ves_plan {
     ves_arena arena;
     const ves_problem *problem;
@@ -59,11 +64,13 @@ struct ves_plan {
     ves_curves *curves;
     ves_bound bound;
     ves_patch **patch;
-    bool branched; /* more than two patches end on some curve */
-    double *side;  /* [patches] +1: Xu x Xv points outward */
+    bool branched;     /* more than two patches end on some curve */
+    plan_sheet *sheet; /* [patches] */
+    double *side;      /* [patches] +1: Xu x Xv points outward */
     plan_level level[LEVELS];
     bool *runs[PROGRAMS]; /* [measures] */
     double *value;        /* [measures] */
+    double *fine;         /* [measures] on the finer grid, while a candidate is proved */
     double *size;         /* [constraints] the scale of each violation, fixed at the start */
     bool *cheap;          /* [constraints] reads no dear measure */
     bool any_dear;        /* some judged measure is dear */
@@ -80,41 +87,41 @@ struct ves_plan {
 };
 
 /* sites.c: sampling and its transpose */
-ves_status plan_level_build(ves_plan *plan, int index, ves_diag *diag);
-ves_status site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient);
-void site_clear(plan_site *s, unsigned needs);
-double site_scatter(ves_plan *plan, plan_site *s, unsigned needs); /* returns d J / d similarity */
-void site_gather(ves_plan *plan, plan_site *s);
+ves_status ves_plan_level_build(ves_plan *plan, int index);
+ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient);
+void ves_site_clear(plan_site *s, unsigned needs);
+double ves_site_scatter(ves_plan *plan, plan_site *s, unsigned needs); /* returns d J / d similarity */
+void ves_site_gather(ves_plan *plan, plan_site *s);
 
 /* bind.c: x -> block -> curves -> patches, and back */
-void plan_bind(ves_plan *plan, const double *x, double unknown);
-void plan_bind_patches(ves_plan *plan);
-void plan_pull(ves_plan *plan, const double *number_adjoint, double *slot_row);
+void ves_plan_bind(ves_plan *plan, const double *x, double unknown);
+void ves_plan_bind_patches(ves_plan *plan);
+void ves_plan_pull(ves_plan *plan, const double *number_adjoint, double *slot_row);
 
 /* forward.c: programs */
-ves_status plan_forward(ves_plan *plan, const double *x, int level, plan_program which, bool gradient);
-ves_status plan_run(ves_plan *plan, int level, plan_program which, bool gradient);
-double plan_formula(ves_plan *plan, const ves_formula *formula);
+ves_status ves_plan_forward(ves_plan *plan, const double *x, int level, plan_program which, bool gradient);
+ves_status ves_plan_run(ves_plan *plan, int level, plan_program which, bool gradient);
+double ves_plan_formula(ves_plan *plan, const ves_formula *formula);
 
 /* judge.c: the largest violation among the constraints that read no dear measure */
-double plan_cheap_violation(ves_plan *plan);
+double ves_plan_cheap_violation(ves_plan *plan);
 
 /* gradient.c */
-void plan_gradient(ves_plan *plan, int level, int output, const ves_formula *const *formula,
-                   const double *seed, int count, plan_program which);
-ves_status plan_follow(ves_plan *plan, int level, int outputs);
+void ves_plan_gradient(ves_plan *plan, int level, int output, const ves_formula *const *formula,
+                       const double *seed, int count, plan_program which);
+ves_status ves_plan_follow(ves_plan *plan, int level, int outputs);
 
 /* figure.c, after plan_forward; proof.c: does the shape of the last evaluation cross itself? */
-ves_status plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **figure);
-ves_status plan_crosses(ves_plan *plan);
+ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **figure);
+ves_status ves_plan_crosses(ves_plan *plan);
 
 /* validity.c */
-ves_status plan_validity(const ves_plan *plan, int level);
+ves_status ves_plan_validity(const ves_plan *plan, int level);
 
 /* orient.c: shared curves -> sides and closedness */
-ves_status plan_orient(ves_plan *plan, ves_diag *diag);
-bool end_is_pole(const ves_plan *plan, int patch, int end);
-int end_curve(const ves_plan *plan, int patch, int end);
-bool end_is_capped(const ves_plan *plan, int patch, int end);
+ves_status ves_plan_orient(ves_plan *plan, ves_diag *diag);
+bool ves_end_is_pole(const ves_plan *plan, int patch, int end);
+int ves_end_curve(const ves_plan *plan, int patch, int end);
+bool ves_end_is_capped(const ves_plan *plan, int patch, int end);
 
 #endif

@@ -13,7 +13,7 @@ static const ves_patch_def *def(const ves_plan *plan, int patch)
 }
 
 /* The curve that an end of a patch lies on, -1: no curve (a sheet). */
-int end_curve(const ves_plan *plan, int patch, int end)
+int ves_end_curve(const ves_plan *plan, int patch, int end)
 {
     const ves_patch_def *p = def(plan, patch);
     for (int k = 0; p->kind == VES_PATCH_PDE && k < p->conditions; k++)
@@ -21,13 +21,14 @@ int end_curve(const ves_plan *plan, int patch, int end)
     return -1;
 }
 
-bool end_is_pole(const ves_plan *plan, int patch, int end)
+bool ves_end_is_pole(const ves_plan *plan, int patch, int end)
 {
-    int curve = end_curve(plan, patch, end);
+    int curve = ves_end_curve(plan, patch, end);
+    if (def(plan, patch)->kind != VES_PATCH_PDE) return plan->sheet[patch].pole[end];
     return curve >= 0 && ves_curves_modes(plan->curves, curve) == 0;
 }
 
-bool end_is_capped(const ves_plan *plan, int patch, int end)
+bool ves_end_is_capped(const ves_plan *plan, int patch, int end)
 {
     const ves_shape_def *shape = &plan->problem->shape;
     for (int k = 0; k < shape->caps; k++)
@@ -40,7 +41,7 @@ static int ends_on(const ves_plan *plan, int curve)
 {
     int count = 0;
     for (int p = 0; p < plan->problem->patches; p++)
-        for (int e = 0; e < 2; e++) count += end_curve(plan, p, e) == curve;
+        for (int e = 0; e < 2; e++) count += ves_end_curve(plan, p, e) == curve;
     return count;
 }
 
@@ -49,11 +50,11 @@ static int ends_on(const ves_plan *plan, int curve)
  * contradiction to meet. */
 static bool spread(ves_plan *plan, int a, int end)
 {
-    int curve = end_curve(plan, a, end);
-    if (curve < 0 || end_is_pole(plan, a, end) || ends_on(plan, curve) > 2) return false;
+    int curve = ves_end_curve(plan, a, end);
+    if (curve < 0 || ves_end_is_pole(plan, a, end) || ends_on(plan, curve) > 2) return false;
     for (int b = 0; b < plan->problem->patches; b++)
         for (int e = 0; e < 2; e++) {
-            if (plan->side[b] != 0 || end_curve(plan, b, e) != curve) continue;
+            if (plan->side[b] != 0 || ves_end_curve(plan, b, e) != curve) continue;
             plan->side[b] = e == end ? -plan->side[a] : plan->side[a];
             return true;
         }
@@ -81,19 +82,65 @@ static ves_status closed_check(const ves_plan *plan, ves_diag *diag)
     if (!p->shape.closed) return VES_OK;
     for (int k = 0; k < p->patches; k++)
         for (int end = 0; end < 2; end++) {
-            int curve = end_curve(plan, k, end);
-            bool sheet = p->patch[k].kind != VES_PATCH_PDE;
-            bool shut = sheet || end_is_pole(plan, k, end) || end_is_capped(plan, k, end) ||
-                        ends_on(plan, curve) == 2;
+            int curve = ves_end_curve(plan, k, end);
+            bool round = ves_patch_periodic(plan->patch[k]);
+            bool shut = (round && ves_end_is_pole(plan, k, end)) || ves_end_is_capped(plan, k, end) ||
+                        (curve >= 0 && ends_on(plan, curve) == 2);
             if (!shut)
                 return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
                                     "the shape is not closed: \"%s.u%d\" is %s; let one other patch end on "
                                     "the same curve, end "
                                     "it in a point, or close it with caps: [%s.u%d]",
                                     p->patch[k].name, end,
-                                    ends_on(plan, curve) > 2 ? "shared by more than two ends" : "free",
+                                    curve >= 0 && ends_on(plan, curve) > 2 ? "shared by more than two ends"
+                                                                           : "free",
                                     p->patch[k].name, end);
         }
+    return VES_OK;
+}
+
+enum { LOOKS = 8 };
+
+static const double SAME = 1e-9; /* of the sheet's size: points that are meant to be one */
+
+/* A sheet says nothing about its ends: they are looked at, at the start design. An end where X does not
+ * depend on v is a pole; a periodic sheet must come back to where it began. */
+static ves_status sheet_look(ves_plan *plan, int patch, ves_diag *diag)
+{
+    enum { PLACES = 4 * LOOKS };
+    static const double TWO_PI = 6.283185307179586;
+    double u[PLACES], v[PLACES], size = 0, apart[4] = {0};
+    ves_arena arena = {0};
+    double *room = ves_arena_doubles(&arena, (size_t)ves_patch_point_room(plan->patch[patch]));
+    double *X = ves_arena_doubles(&arena, (size_t)(3 * VES_FIELDS * PLACES));
+    for (int k = 0; k < LOOKS; k++) { /* the end u = 0, the end u = 1, the seam v = 0 and v = 2 pi */
+        double t = (k + 0.5) / LOOKS;
+        u[k] = 0, u[LOOKS + k] = 1, u[2 * LOOKS + k] = u[3 * LOOKS + k] = t;
+        v[k] = v[LOOKS + k] = TWO_PI * t, v[2 * LOOKS + k] = 0, v[3 * LOOKS + k] = TWO_PI;
+    }
+    if (room && X) ves_patch_point(plan->patch[patch], &plan->bound, PLACES, u, v, X, room);
+    for (int c = 0; c < 3 && room && X; c++)
+        for (int k = 0; k < PLACES; k++) {
+            const double *x = X + c * PLACES;
+            int group = k / LOOKS, other = group < 2 ? group * LOOKS : 2 * LOOKS + k % LOOKS;
+            size = fmax(size, fabs(x[k] - x[0]));
+            apart[group] = fmax(apart[group], fabs(x[k] - x[other]));
+        }
+    ves_arena_destroy(&arena);
+    if (!room || !X) return VES_MEMORY;
+    for (int end = 0; end < 2; end++) plan->sheet[patch].pole[end] = apart[end] <= SAME * size;
+    if (!def(plan, patch)->periodic || apart[3] <= SAME * size) return VES_OK;
+    return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, def(plan, patch)->mark,
+                        "surface \"%s\" is periodic but does not close: at v = 2 pi it is %.3g away from "
+                        "where it was at v = 0; write "
+                        "periodic: false, or mend the formula",
+                        def(plan, patch)->name, apart[3]);
+}
+
+static ves_status sheets_look(ves_plan *plan, ves_diag *diag)
+{
+    for (int k = 0; k < plan->problem->patches; k++)
+        if (def(plan, k)->kind != VES_PATCH_PDE) VES_TRY(sheet_look(plan, k, diag));
     return VES_OK;
 }
 
@@ -111,8 +158,9 @@ static void branches_find(ves_plan *plan, ves_diag *diag)
     }
 }
 
-ves_status plan_orient(ves_plan *plan, ves_diag *diag)
+ves_status ves_plan_orient(ves_plan *plan, ves_diag *diag)
 {
+    VES_TRY(sheets_look(plan, diag));
     branches_find(plan, diag);
     spread_all(plan);
     return closed_check(plan, diag);

@@ -82,6 +82,7 @@ static ves_status memory_take(ves_plan *plan)
     plan->block = ves_arena_take(a, (size_t)p->block, sizeof(double));
     plan->block_adjoint = ves_arena_take(a, (size_t)p->block, sizeof(double));
     plan->value = ves_arena_doubles(a, (size_t)p->measures);
+    plan->fine = ves_arena_doubles(a, (size_t)p->measures);
     plan->measure_adjoint = ves_arena_doubles(a, (size_t)p->measures);
     plan->size = ves_arena_doubles(a, (size_t)p->constraints);
     plan->cheap = ves_arena_take(a, (size_t)p->constraints, sizeof *plan->cheap);
@@ -94,9 +95,10 @@ static ves_status memory_take(ves_plan *plan)
     plan->field_adjoint = ves_arena_take(a, 1, sizeof *plan->field_adjoint);
     plan->form = ves_arena_take(a, 1, sizeof *plan->form);
     plan->patch = ves_arena_take(a, (size_t)p->patches, sizeof *plan->patch);
+    plan->sheet = ves_arena_take(a, (size_t)p->patches, sizeof *plan->sheet);
     plan->side = ves_arena_take(a, (size_t)p->patches, sizeof *plan->side);
-    return plan->block && plan->block_adjoint && plan->value && plan->measure_adjoint && plan->size &&
-                   plan->cheap && plan->formula_room && plan->rows && plan->row_similarity &&
+    return plan->block && plan->block_adjoint && plan->value && plan->fine && plan->measure_adjoint &&
+                   plan->size && plan->cheap && plan->formula_room && plan->rows && plan->row_similarity &&
                    plan->unit_row && plan->field && plan->field_adjoint && plan->form && plan->patch &&
                    plan->side
                ? VES_OK
@@ -157,7 +159,7 @@ static ves_status face_outward(ves_plan *plan)
 {
     ves_figure *figure;
     double flux = 0;
-    VES_TRY(plan_figure_make(plan, 16, 32, &figure));
+    VES_TRY(ves_plan_figure_make(plan, 16, 32, &figure));
     for (int k = 0; k < figure->patches; k++) {
         const ves_figure_patch *f = &figure->patch[k];
         double sum = 0;
@@ -205,8 +207,8 @@ static void sizes_fix(ves_plan *plan)
 {
     const ves_problem *p = plan->problem;
     for (int k = 0; k < p->constraints; k++) {
-        double left = fabs(plan_formula(plan, p->constraint[k].left));
-        double right = fabs(plan_formula(plan, p->constraint[k].right)), size = fmax(left, right);
+        double left = fabs(ves_plan_formula(plan, p->constraint[k].left));
+        double right = fabs(ves_plan_formula(plan, p->constraint[k].right)), size = fmax(left, right);
         plan->size[k] = size > 0 && isfinite(size) ? size : 1;
     }
 }
@@ -233,16 +235,16 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     VES_TRY(ves_curves_create(&set, &plan->arena, &plan->curves, diag));
     plan->bound = (ves_bound){.number = plan->block, .varying = p->varying, .curves = plan->curves};
     for (int k = 0; k < p->patches; k++) VES_TRY(patch_make(plan, k, diag));
-    plan_bind_patches(plan);
-    VES_TRY(plan_orient(plan, diag));
+    ves_plan_bind_patches(plan);
+    VES_TRY(ves_plan_orient(plan, diag));
     VES_TRY(face_outward(plan));
     VES_TRY(runs_make(plan));
     for (int k = 0; k < LEVELS; k++) {
         for (int d = 0; d < 2; d++) plan->level[k].quadrature[d] = options->quadrature[d] << k;
-        VES_TRY(plan_level_build(plan, k, diag));
+        VES_TRY(ves_plan_level_build(plan, k));
     }
     for (int m = 0; m < p->measures; m++) plan->value[m] = 0;
-    ves_status status = plan_forward(plan, plan->block, 0, PROGRAM_JUDGE, false);
+    ves_status status = ves_plan_forward(plan, plan->block, 0, PROGRAM_JUDGE, false);
     if (status < 0) return status;
     sizes_fix(plan);
     return VES_OK;
@@ -275,6 +277,12 @@ ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *o
 void ves_plan_destroy(ves_plan *plan)
 {
     if (!plan) return;
+    for (int k = 0; k < LEVELS; k++)
+        for (int m = 0; plan->level[k].instance && m < plan->problem->measures; m++) {
+            void *state = plan->level[k].instance[m].input.state;
+            if (state && plan->problem->measure[m].measure->release)
+                plan->problem->measure[m].measure->release(state);
+        }
     ves_arena_destroy(&plan->arena);
     ves_memory_free(plan);
 }

@@ -1,9 +1,10 @@
 /* The quadrature that `auto` chooses. */
+#include "base/random.h"
 #include "plan/inside.h"
 
 #include <math.h>
 
-enum { U_LEAST = 16, U_MOST = 64, V_LEAST = 16, V_MOST = 256 };
+enum { U_LEAST = 16, U_MOST = 64, V_LEAST = 16, V_MOST = 264, TRIES = 32 };
 
 static const double ENOUGH = 1e-9;
 
@@ -12,13 +13,13 @@ static int rounded(int n)
     return (n + VES_LANES - 1) / VES_LANES * VES_LANES;
 }
 
-/* Measures of the start design on one grid. */
-static ves_status measures_on(const ves_problem *problem, int nu, int nv, double *value, ves_diag *diag)
+/* Measures of one design on one grid. */
+static ves_status measures_on(const ves_problem *problem, const double *x, const int grid[2], double *value,
+                              ves_diag *diag)
 {
     ves_plan *plan;
-    VES_TRY(ves_plan_create(problem, &(ves_plan_options){.quadrature = {nu, nv}}, &plan, diag));
-    ves_status status = plan_forward(plan, plan->block, 0, PROGRAM_ALL, false);
-    for (int m = 0; m < problem->measures; m++) value[m] = status == VES_OK ? plan->value[m] : NAN;
+    VES_TRY(ves_plan_create(problem, &(ves_plan_options){.quadrature = {grid[0], grid[1]}}, &plan, diag));
+    ves_status status = ves_plan_measure(plan, x, 0, value);
     ves_plan_destroy(plan);
     return status;
 }
@@ -33,26 +34,78 @@ static double change_between(int count, const double *a, const double *b)
     return worst;
 }
 
+/* Fewer nodes than this cannot see the modes that are solved: their products would be taken for slower ones.
+ */
+static int resolving(const ves_plan *plan)
+{
+    int modes = 0;
+    for (int k = 0; k < plan->problem->patches; k++)
+        if (ves_patch_modes(plan->patch[k]) > modes) modes = ves_patch_modes(plan->patch[k]);
+    int n = rounded(2 * modes + 2);
+    return n < V_LEAST ? V_LEAST : n > V_MOST ? V_MOST : n;
+}
+
+/* A design that can be measured: the start, the middle of the box, or one of some random ones. */
+static ves_status design_find(const ves_problem *problem, ves_plan *plan, double *x, double *value)
+{
+    ves_status status = VES_DEGENERATE;
+    for (int t = 0; t < TRIES && status > VES_OK; t++) {
+        ves_random random = {.seed = 1, .step = (uint64_t)t};
+        for (int k = 0; k < problem->variables; k++) {
+            const ves_variable *v = &problem->variable[k];
+            x[k] =
+                t == 0 ? v->start : v->min + (v->max - v->min) * (t == 1 ? 0.5 : ves_random_uniform(&random));
+        }
+        status = ves_plan_measure(plan, x, 0, value);
+    }
+    return status;
+}
+
+/* Refines one direction until two refinements in a row change nothing: one alone may be fooled by symmetry.
+ * left: the last change on the grid chosen. */
+static ves_status refine(const ves_problem *problem, const double *x, int d, int grid[2], double *left,
+                         double *value, ves_diag *diag)
+{
+    int count = problem->measures, most = d ? V_MOST : U_MOST, trial[2] = {grid[0], grid[1]}, calm = 0;
+    double *next = value + count;
+    *left = 0;
+    VES_TRY(measures_on(problem, x, trial, value, diag));
+    while (calm < 2) {
+        int finer = rounded(trial[d] + trial[d] / 2);
+        trial[d] = finer;
+        VES_TRY(measures_on(problem, x, trial, next, diag));
+        double change = change_between(count, value, next);
+        if (!calm) *left = change;
+        calm = change <= ENOUGH ? calm + 1 : 0;
+        if (calm) continue;
+        if (finer > most) return VES_OK;
+        grid[d] = finer;
+        for (int k = 0; k < count; k++) value[k] = next[k];
+    }
+    return VES_OK;
+}
+
 ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], double *change, ves_diag *diag)
 {
-    int count = problem->measures, grid[2] = {U_LEAST, V_LEAST};
-    const int most[2] = {U_MOST, V_MOST};
-    double *value = ves_memory_take(sizeof *value * (size_t)(2 * count + 1)), left[2] = {0, 0};
-    if (!value) return VES_MEMORY;
-    ves_status status = measures_on(problem, grid[0], grid[1], value, diag);
+    ves_arena arena = {0};
+    double *value = ves_arena_doubles(&arena, (size_t)(2 * problem->measures)), left[2] = {0, 0};
+    double *x = ves_arena_doubles(&arena, (size_t)problem->variables);
+    ves_plan *plan = NULL;
+    int grid[2] = {U_LEAST, 2 * V_LEAST};
+    ves_status status = value && x ? VES_OK : VES_MEMORY;
+    if (status == VES_OK)
+        status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, diag);
+    if (status == VES_OK) grid[1] = resolving(plan);
+    if (status == VES_OK && grid[1] > 2 * V_LEAST) { /* the search for a design must see the modes too */
+        ves_plan_destroy(plan);
+        status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, diag);
+    }
+    if (status == VES_OK) status = design_find(problem, plan, x, value);
     for (int d = 0; d < 2 && status == VES_OK; d++)
-        while (status == VES_OK) {
-            int finer[2] = {grid[0], grid[1]};
-            finer[d] = rounded(grid[d] + grid[d] / 2);
-            status = measures_on(problem, finer[0], finer[1], value + count, diag);
-            if (status != VES_OK) break;
-            left[d] = change_between(count, value, value + count);
-            if (left[d] <= ENOUGH || finer[d] > most[d]) break;
-            grid[d] = finer[d];
-            for (int k = 0; k < count; k++) value[k] = value[count + k];
-        }
-    ves_memory_free(value);
+        status = refine(problem, x, d, grid, &left[d], value, diag);
+    ves_plan_destroy(plan);
+    ves_arena_destroy(&arena);
     quadrature[0] = grid[0], quadrature[1] = grid[1];
-    *change = fmax(left[0], left[1]);
+    *change = status == VES_OK ? fmax(left[0], left[1]) : NAN;
     return status < 0 ? status : VES_OK;
 }

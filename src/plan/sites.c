@@ -108,15 +108,17 @@ static int patches_of(const ves_problem *p, const ves_measure_def *m, int index)
     return m->over ? m->patch[index] : index < p->patches ? index : -1;
 }
 
-static bool is_reference(const ves_key *key)
+/* Key k names a curve or a place, and it was given. */
+static bool is_reference(const ves_measure_def *m, int k)
 {
-    return key->kind == VES_CURVE || key->kind == VES_PLACE;
+    ves_kind kind = m->measure->keys[k].kind;
+    return (kind == VES_CURVE || kind == VES_PLACE) && m->args.arg[k].given;
 }
 
 static int references(const ves_measure_def *m)
 {
     int count = 0;
-    for (const ves_key *k = m->measure->keys; k && k->name; k++) count += is_reference(k);
+    for (int k = 0; m->measure->keys && m->measure->keys[k].name; k++) count += is_reference(m, k);
     return count;
 }
 
@@ -127,51 +129,54 @@ static void need(plan_site *s, const ves_plan *plan, int measure, unsigned wante
     s->wants |= wanted;
 }
 
-/* Finds a site like `like` among the ones already there, or adds it. */
-static int site_index(plan_level *l, const plan_site *like)
+/* The site of this kind that is there already, or -1. Places are told apart by where they are. */
+static int site_find(const plan_level *l, ves_site kind, int patch, int curve, const double at[2])
 {
     for (int k = 0; k < l->sites; k++) {
         const plan_site *s = &l->site[k];
-        bool same =
-            s->samples.site == like->samples.site && s->patch == like->patch && s->curve == like->curve;
-        if (same && s->grid.u == like->grid.u && s->samples.side == like->samples.side) return k;
+        if (s->samples.site != kind || s->patch != patch || s->curve != curve) continue;
+        if (kind == VES_SITE_CURVE ||
+            (s->grid.u[0] == at[0] && (kind == VES_SITE_CAP || s->grid.v[0] == at[1])))
+            return k;
     }
-    l->site[l->sites] = *like;
-    return l->sites++;
+    return -1;
 }
 
 static ves_status cap_add(ves_plan *plan, plan_level *l, int k, int *index)
 {
     const ves_end *cap = &plan->problem->shape.cap[k];
-    double side = (cap->end ? -1 : 1) * plan->side[cap->patch];
-    for (int i = 0; i < l->sites; i++) {
-        const plan_site *s = &l->site[i];
-        if (s->samples.site == VES_SITE_CAP && s->patch == cap->patch && s->grid.u[0] == cap->end) {
-            *index = i;
-            return VES_OK;
-        }
-    }
-    plan_site s = {.patch = cap->patch, .curve = -1, .samples.site = VES_SITE_CAP, .samples.side = side};
+    const double at[2] = {cap->end, 0};
+    *index = site_find(l, VES_SITE_CAP, cap->patch, -1, at);
+    if (*index >= 0) return VES_OK;
+    plan_site s = {.patch = cap->patch, .curve = -1, .samples.site = VES_SITE_CAP};
+    s.samples.side = (cap->end ? -1 : 1) * plan->side[cap->patch];
     VES_TRY(ves_grid_ring(cap->end, l->quadrature[1], true, &plan->arena, &s.grid));
-    *index = site_index(l, &s);
+    *index = l->sites;
+    l->site[l->sites++] = s;
     return VES_OK;
 }
 
 static ves_status reference_add(ves_plan *plan, plan_level *l, const ves_arg *arg, int *index)
 {
     plan_site s = {.patch = -1, .curve = -1};
+    double at[2] = {0, 0};
     if (arg->place) {
         const ves_place *place = &plan->problem->place[arg->ref[0]];
         s.samples.site = VES_SITE_PLACE;
         s.patch = place->patch;
-        VES_TRY(ves_grid_given(1, &plan->block[place->u], 1, &plan->block[place->v], false, &plan->arena,
-                               &s.grid));
+        at[0] = plan->block[place->u], at[1] = plan->block[place->v];
     } else {
         s.samples.site = VES_SITE_CURVE;
         s.curve = arg->ref[0];
-        VES_TRY(ves_grid_ring(0, 2 * l->quadrature[1], true, &plan->arena, &s.grid));
     }
-    *index = site_index(l, &s);
+    *index = site_find(l, s.samples.site, s.patch, s.curve, at);
+    if (*index >= 0) return VES_OK;
+    if (arg->place)
+        VES_TRY(ves_grid_given(1, &at[0], 1, &at[1], false, &plan->arena, &s.grid));
+    else
+        VES_TRY(ves_grid_ring(0, 2 * l->quadrature[1], true, &plan->arena, &s.grid));
+    *index = l->sites;
+    l->site[l->sites++] = s;
     return VES_OK;
 }
 
@@ -181,25 +186,27 @@ static ves_status instance_build(ves_plan *plan, plan_level *l, int m)
     const ves_measure_def *def = &p->measure[m];
     const ves_measure *measure = def->measure;
     plan_instance *in = &l->instance[m];
-    int surfaces = !measure->surface ? 0 : def->over ? def->over : p->patches;
+    unsigned wanted = measure->needs ? measure->needs(&def->args) : measure->surface;
+    int surfaces = !wanted ? 0 : def->over ? def->over : p->patches;
     int caps = measure->cap ? p->shape.caps : 0, refs = references(def), count = surfaces + caps + refs,
         at = 0;
     in->site = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->site);
     if (!in->site) return VES_MEMORY;
     for (int k = 0; k < surfaces; k++) {
         in->site[at] = patches_of(p, def, k);
-        need(&l->site[in->site[at++]], plan, m, measure->surface);
+        need(&l->site[in->site[at++]], plan, m, wanted);
     }
     for (int k = 0; k < caps; k++) {
         VES_TRY(cap_add(plan, l, k, &in->site[at]));
         need(&l->site[in->site[at++]], plan, m, measure->cap);
     }
     for (int k = 0; refs && measure->keys[k].name; k++) {
-        if (!is_reference(&measure->keys[k])) continue;
+        if (!is_reference(def, k)) continue;
         VES_TRY(reference_add(plan, l, &def->args.arg[k], &in->site[at]));
         need(&l->site[in->site[at++]], plan, m, measure->curve);
     }
     in->input.samples = count;
+    in->input.level = (int)(l - plan->level);
     return VES_OK;
 }
 
@@ -220,7 +227,8 @@ static ves_status instance_finish(ves_plan *plan, plan_level *l, int m)
     in->input.number = plan->block;
     size_t room = def->measure->room ? def->measure->room(&in->input) : 0;
     in->input.room = ves_arena_doubles(&plan->arena, room);
-    return in->input.room ? VES_OK : VES_MEMORY;
+    if (!in->input.room) return VES_MEMORY;
+    return def->measure->prepare ? def->measure->prepare(&in->input, &in->input.state) : VES_OK;
 }
 
 /* What validity looks at, in the programs that judge. */
@@ -238,9 +246,8 @@ static void validity_needs(const ves_problem *p, plan_level *l)
     }
 }
 
-ves_status plan_level_build(ves_plan *plan, int index, ves_diag *diag)
+ves_status ves_plan_level_build(ves_plan *plan, int index)
 {
-    (void)diag;
     const ves_problem *p = plan->problem;
     plan_level *l = &plan->level[index];
     int most = p->patches + p->shape.caps;
@@ -257,6 +264,13 @@ ves_status plan_level_build(ves_plan *plan, int index, ves_diag *diag)
     }
     for (int m = 0; m < p->measures; m++) VES_TRY(instance_build(plan, l, m));
     validity_needs(p, l);
+    for (int k = 0; k < p->shape.caps && p->shape.closed; k++) { /* the shape must not turn inside out */
+        int cap;
+        VES_TRY(cap_add(plan, l, k, &cap));
+        l->site[cap].needs[PROGRAM_JUDGE] |= VES_X | VES_XV;
+        l->site[cap].needs[PROGRAM_ALL] |= VES_X | VES_XV;
+        l->site[cap].wants |= VES_X | VES_XV;
+    }
     for (int k = 0; k < l->sites; k++) {
         double side = l->site[k].samples.side;
         VES_TRY(site_finish(plan, &l->site[k], l->site[k].samples.site));
@@ -324,10 +338,16 @@ static void forms_store(const plan_site *s, const ves_tile *tile, unsigned needs
     }
 }
 
-/* Below this ratio of |Xu x Xv|^2 to (|Xu|^2 + |Xv|^2)^2 rounding decides the direction of the normal. */
-static const double FLAT = 1e-24;
+/* A site without forms is looked at for numbers here; with forms ves_forms_eval does. */
+static bool finite_points(const plan_site *s)
+{
+    double sum = 0;
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < s->grid.count; k++) sum += s->samples.X[c][k];
+    return isfinite(sum);
+}
 
-ves_status site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient)
+ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient)
 {
     if (!needs) return VES_OK;
     if (!s->chart) {
@@ -335,7 +355,7 @@ ves_status site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradie
         return VES_OK;
     }
     ves_chart_prepare(s->chart, &plan->bound, gradient);
-    double least = HUGE_VAL;
+    ves_status worst = VES_OK;
     int tiles = ves_tile_count(&s->grid, VES_TILE_ROWS);
     for (int k = 0; k < tiles; k++) {
         ves_tile tile;
@@ -346,12 +366,14 @@ ves_status site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradie
             for (int c = 0; c < 3 && needs & FIELD_NEED[f]; c++)
                 tile_store(s, &tile, plan->field->at[f * 3 + c], NULL, sample_field(&s->samples, f)[c]);
         if (needs & FORM_NEEDS) {
-            double ratio = ves_forms_eval(&tile, plan->field, s->side, plan->form);
-            least = ratio < least || isnan(ratio) ? ratio : least;
+            ves_status status =
+                ves_forms_eval(&tile, plan->field, s->side, needs & VES_CURVATURE, plan->form);
+            if (status != VES_OK) worst = status;
             forms_store(s, &tile, needs, plan->form);
         }
     }
-    return least > FLAT ? VES_OK : VES_DEGENERATE;
+    if (!(needs & FORM_NEEDS) && needs & VES_X && !finite_points(s)) return VES_DEGENERATE;
+    return worst;
 }
 
 /* --- the transpose
@@ -363,7 +385,7 @@ static void plane_clear(double *plane, int count)
     if (plane) memset(plane, 0, sizeof *plane * (size_t)count);
 }
 
-void site_clear(plan_site *s, unsigned needs)
+void ves_site_clear(plan_site *s, unsigned needs)
 {
     int count = s->grid.count;
     for (int f = 0; f < VES_FIELDS; f++)
@@ -420,7 +442,8 @@ static void adjoint_make(ves_plan *plan, const plan_site *s, const ves_tile *til
     ves_tile_planes *to = plan->field_adjoint;
     if (needs & FORM_NEEDS) {
         form_adjoint_load(s, tile, needs, plan->form);
-        ves_forms_gradient(tile, plan->field, s->side, !(needs & VES_NORMAL), plan->form, to);
+        ves_form_flow flow = {.normal = needs & VES_NORMAL, .curvature = needs & VES_CURVATURE};
+        ves_forms_gradient(tile, plan->field, s->side, flow, plan->form, to);
     }
     for (int f = 0; f < VES_FIELDS; f++)
         for (int c = 0; c < 3 && tile->fields & 1u << f; c++) {
@@ -472,7 +495,7 @@ static double curve_scatter(ves_plan *plan, plan_site *s, unsigned needs)
     return by_similarity;
 }
 
-double site_scatter(ves_plan *plan, plan_site *s, unsigned needs)
+double ves_site_scatter(ves_plan *plan, plan_site *s, unsigned needs)
 {
     if (!needs || !s->varies) return 0;
     if (!s->chart) return curve_scatter(plan, s, needs);
@@ -492,7 +515,7 @@ double site_scatter(ves_plan *plan, plan_site *s, unsigned needs)
     return by_similarity;
 }
 
-void site_gather(ves_plan *plan, plan_site *s)
+void ves_site_gather(ves_plan *plan, plan_site *s)
 {
     if (s->chart && s->varies) ves_chart_gather(s->chart, &plan->bound, plan->block_adjoint);
 }

@@ -1,5 +1,6 @@
 /* The cheap checks of the loop: a normal that turns over between neighbours, a shape inside out, too near its
  * axis, a height that does not grow. Each is a verdict, not an error. */
+#include "measure/flux.h"
 #include "plan/inside.h"
 
 #include <math.h>
@@ -107,7 +108,7 @@ static bool turns_back(const ves_plan *plan, const ves_samples *s)
     return up && down;
 }
 
-ves_status plan_validity(const ves_plan *plan, int index)
+ves_status ves_plan_validity(const ves_plan *plan, int index)
 {
     const ves_problem *p = plan->problem;
     const ves_validity_def *v = &p->validity;
@@ -122,5 +123,11 @@ ves_status plan_validity(const ves_plan *plan, int index)
         if (v->monotone >= 0 && among(k, v->monotone_patches, v->monotone_patch) && turns_back(plan, s))
             return VES_NOT_MONOTONE;
     }
-    return p->shape.closed && p->shape.caps == 0 && volume < 0 ? VES_INVERTED : VES_OK;
+    for (int k = p->patches; k < l->sites && p->shape.closed; k++) {
+        const ves_samples *s = &l->site[k].samples;
+        if (s->site != VES_SITE_CAP) continue;
+        ves_cap cap = ves_cap_init(s);
+        for (int c = 0; c < 3; c++) volume += s->side / 6 * cap.mean[c] * cap.twice_area[c];
+    }
+    return p->shape.closed && volume < 0 ? VES_INVERTED : VES_OK;
 }

@@ -103,7 +103,11 @@ void ves_describe_limits(ves_writer *writer, const ves_key *key)
     bool bounded = key->min != 0 || key->max != 0, above = bounded && !isinf(key->min),
          below = bounded && !isinf(key->max);
     const char *gap = "";
-    if (above && below)
+    if (key->min == VES_POSITIVE && below)
+        ves_write(writer, "> 0, <= %.12g", key->max);
+    else if (key->min == VES_POSITIVE)
+        ves_write(writer, "> 0");
+    else if (above && below)
         ves_write(writer, "%.12g .. %.12g", key->min, key->max);
     else if (above || below)
         ves_write(writer, "%s %.12g", above ? ">=" : "<=", above ? key->min : key->max);

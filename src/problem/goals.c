@@ -147,7 +147,8 @@ static void read_scale(scope *s, const ves_node *node)
         return;
     }
     if (reader->measure[measure].measure->degree == VES_NO_DEGREE) {
-        ves_reader_error(reader, VES_RANGE, equation, "how \"%s\" grows with the shape is not known; scale needs a measure like area",
+        ves_reader_error(reader, VES_RANGE, equation,
+                         "how \"%s\" grows with the shape is not known; scale needs a measure like area",
                          reader->measure[measure].name);
         return;
     }

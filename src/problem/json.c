@@ -59,7 +59,10 @@ static void leaf(ves_writer *w, const ves_key *key)
     else
         ves_write(w, "%s", text[key->kind]);
     if (number && (key->min != 0 || key->max != 0)) {
-        if (!isinf(key->min)) ves_write(w, ",\"minimum\":%.12g", key->min);
+        if (key->min == VES_POSITIVE)
+            ves_write(w, ",\"exclusiveMinimum\":0");
+        else if (!isinf(key->min))
+            ves_write(w, ",\"minimum\":%.12g", key->min);
         if (!isinf(key->max)) ves_write(w, ",\"maximum\":%.12g", key->max);
     }
 }

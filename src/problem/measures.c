@@ -18,6 +18,8 @@ static int all_measures(const ves_reader *reader, const char **name, const ves_m
     return count;
 }
 
+_Static_assert(VES_MEASURE_KEYS < VES_KEYS - 1, "a measure's keys and `over` fit into ves_fields");
+
 static int key_count(const ves_measure *measure)
 {
     int count = 0;
@@ -51,7 +53,8 @@ static void note_curves(ves_reader *reader, const ves_args *args)
     }
 }
 
-static void check_closed(ves_reader *reader, const ves_node *node, const ves_measure *measure, const ves_args *args)
+static void check_closed(ves_reader *reader, const ves_node *node, const ves_measure *measure,
+                         const ves_args *args)
 {
     bool needed = measure->closed || (measure->closes && measure->closes(args));
     if (!needed || reader->problem->shape.closed) return;

@@ -170,7 +170,9 @@ static void limits_text(const ves_key *key, char text[96])
     ves_reader_show(key->max, high);
     bool above = !isinf(key->min), below = !isinf(key->max);
     text[0] = 0;
-    if (above && below)
+    if (key->min == VES_POSITIVE)
+        strcat(strcat(strcat(text, "> 0"), below ? " and <= " : ""), below ? high : "");
+    else if (above && below)
         strcat(strcat(strcat(strcat(strcat(text, "in ["), low), ", "), high), "]");
     else
         strcat(strcat(text, above ? ">= " : "<= "), above ? low : high);

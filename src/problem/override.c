@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "problem/schema.h"
 
 enum { WORD = 200, PATH = 32 };
 
@@ -75,7 +76,7 @@ static int indentation(const ves_script *script, size_t at)
     return (int)(at - begin);
 }
 
-/* Adds a key before the first one of a mapping. */
+/* Adds a key before the first one of a mapping; inner and inner_end go around the value. */
 static ves_status add(const override *o, const ves_node *map, const char *key, const char *inner,
                       const char *inner_end)
 {
@@ -110,12 +111,59 @@ static const ves_node *child(const ves_node *node, const char *word)
     return index < node->count ? node->item[index] : NULL;
 }
 
-/* patches.wall.operator.a: down to the value; the last word may be a new key. */
+/* The entry of the schema for a key, below that of what the key stands in; NULL: there is none, or names that
+ * the file gives come in between. */
+static const ves_entry *below(const ves_entry *entry, const char *word)
+{
+    return entry && (int)entry->key.kind == VES_MAP ? ves_schema_find(entry->table, word) : NULL;
+}
+
+static bool is_nothing(const ves_node *node)
+{
+    return node->kind == VES_NODE_WORD && node->plain && !*node->text;
+}
+
+/* What is left of a path, a.b.c, as the mapping that the file lacks: before the value "{b: {c: ", after it
+ * "}}". False: only the last word may be one that the schema does not know as a mapping; or no memory. */
+static bool nest(const override *o, const ves_entry *entry, const char *rest, char **inner, char **inner_end)
+{
+    ves_arena *arena = o->script->arena;
+    *inner = *inner_end = ves_arena_format(arena, "%s", "");
+    for (; rest && *inner && *inner_end; rest = strchr(rest, '.') ? strchr(rest, '.') + 1 : NULL) {
+        int length = (int)strcspn(rest, ".");
+        char *word = ves_arena_text(arena, rest, (size_t)length);
+        int kind = entry ? (int)entry->key.kind : 0;
+        if (!word || !*word || (kind != VES_MAP && !(kind == VES_NAMED && !rest[length]))) return false;
+        *inner = ves_arena_format(arena, "%s{%s: ", *inner, word);
+        *inner_end = ves_arena_format(arena, "%s}", *inner_end);
+        entry = below(entry, word);
+    }
+    return *inner && *inner_end;
+}
+
+/* Where the path leaves the file: word is not in node (entry its schema), and rest comes behind it. */
+static ves_status set_new(const override *o, const ves_node *node, const ves_entry *entry, const char *word,
+                          const char *rest)
+{
+    char *inner, *inner_end;
+    bool deep = nest(o, below(entry, word), rest, &inner, &inner_end);
+    if (!inner || !inner_end) return VES_MEMORY;
+    if (!*word || !strchr(o->name, '.') || (rest && !deep)) return not_found(o, node, word);
+    if (node->kind == VES_NODE_MAP) return add(o, node, word, inner, inner_end);
+    if (!is_nothing(node) || node->alias || !entry) return not_found(o, node, word);
+    char *before = ves_arena_format(o->script->arena, " {%s: %s", word, inner);
+    char *after = ves_arena_format(o->script->arena, "%s}", inner_end);
+    return before && after ? write(o, node->token, node->token_end, before, after) : VES_MEMORY;
+}
+
+/* patches.wall.operator.a: down to the value. The last word may be a new key, and sections that the file does
+ * not have are made. */
 static ves_status set_path(const override *o, const ves_node *root)
 {
     char *path = ves_arena_text(o->script->arena, o->name, strlen(o->name));
     if (!path) return VES_MEMORY;
     const ves_node *node = root;
+    const ves_entry *entry = &ves_schema_root;
     for (int depth = 0; depth < PATH; depth++) {
         char *dot = strchr(path, '.');
         if (dot) *dot = 0;
@@ -123,10 +171,9 @@ static ves_status set_path(const override *o, const ves_node *root)
         if (node->alias && depth)
             return ves_diag_add(o->diag, VES_ERROR, VES_USAGE, name_mark(o),
                                 "\"%s\" lies in what *name stands for; set it where it is written", o->name);
-        if (!next && !dot && node->kind == VES_NODE_MAP && *path && strchr(o->name, '.'))
-            return add(o, node, path, "", "");
-        if (!next) return not_found(o, node, path);
+        if (!next) return set_new(o, node, entry, path, dot ? dot + 1 : NULL);
         if (!dot) return replace(o, next);
+        entry = below(entry, path);
         node = next;
         path = dot + 1;
     }

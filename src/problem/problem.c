@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "measure/registry.h"
 #include "problem/override.h"
 #include "problem/reader.h"
 
@@ -162,6 +163,7 @@ static ves_status read_text(ves_arena *arena, const char *path, const char *text
     if (marked) text += 3, length -= 3;
     ves_diag_source(diag, path, text, length);
     VES_TRY(check_bytes(text, length, diag));
+    if (options) VES_TRY(ves_measures_check(options->plugin, diag));
     VES_TRY(ves_script_init(&script, text, length, arena));
     VES_TRY(ves_override_apply(&script, options, &t.root, diag));
     return two_passes(&t, problem, diag);

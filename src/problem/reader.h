@@ -9,7 +9,7 @@
 #include "problem/schema.h"
 #include "problem/tree.h"
 
-enum { VES_NAMES = 1000, VES_SLOTS = 1000, VES_KEYS = 32 };
+enum { VES_NAMES = 1000, VES_SLOTS = 1000, VES_KEYS = 32 }; /* VES_KEYS: of one thing */
 
 /* The names of one section, in the order of the file. */
 typedef struct ves_named {

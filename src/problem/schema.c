@@ -82,7 +82,7 @@ static const ves_entry domain_keys[] = {
 static const ves_entry patch_keys[] = {
     {{"operator", KIND(VES_MAP), .about = "the partial differential equation: (d_uu + a^2 d_vv)^power X = 0"}, "operator: {power: 2, a: 1}", operator_keys},
     {{"conditions", KIND(VES_LIST), .about = "what the surface meets at its ends: 2 * power of them"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
-    {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved exactly; 0: all that the curves have"}, "modes: 8", NULL},
+    {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved exactly; 0: all that matter at the start, at least 40; the rest goes into the remainder"}, "modes: 8", NULL},
     {{"surface", KIND(VES_MAP), .about = "instead of operator and conditions: the surface itself"}, "surface: {formula: [u, v, \"u*v\"]}", surface_keys},
     {{"periodic", VES_FLAG, .fallback = 1, .about = "the surface closes in v (only with surface)"}, "periodic: false", NULL},
     {{"domain", KIND(VES_MAP), .about = "ranges of u and v (only with surface)"}, "domain: {u: [0, 1], v: [0, 2*pi]}", domain_keys},
@@ -131,7 +131,7 @@ static const ves_entry measure[] = {
 
 static const ves_entry relation_keys[] = {
     {{"require", KIND(VES_RELATION), .required = true, .about = "the relation"}, "require: area <= 14", NULL},
-    {{"within", VES_NUMBER, .unit = "1", .min = 0, .max = HUGE_VAL, .fallback = 1e-6, .about = "feasible when |excess| / max(|limit|, the measure at the start) is at most this"}, "within: 1e-3", NULL},
+    {{"within", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 1e-6, .about = "feasible when |excess| / max(|limit|, the measure at the start) is at most this"}, "within: 1e-3", NULL},
     END};
 
 static const ves_entry relation[] = {

@@ -41,6 +41,14 @@ static void set_flag(ves_reader *reader, const ves_fields *f, const char *name, 
     if (x->node) *value = ves_reader_flag(reader, x->node, x->key);
 }
 
+/* A field that is the opposite of its key. */
+static void set_opposite(ves_reader *reader, const ves_fields *f, const char *name, bool *value)
+{
+    bool flag = !*value;
+    set_flag(reader, f, name, &flag);
+    *value = !flag;
+}
+
 static ves_anneal read_anneal(ves_reader *reader, const ves_fields *f)
 {
     ves_anneal a = ves_anneal_default();
@@ -54,7 +62,7 @@ static ves_anneal read_anneal(ves_reader *reader, const ves_fields *f)
         ves_reader_error(reader, VES_RANGE, s, "\"s\" must lie between 0 and 1");
     set_number(reader, f, "c_end", &a.c_end);
     set_number(reader, f, "step", &a.step);
-    set_flag(reader, f, "adapt", &a.adapt);
+    set_opposite(reader, f, "adapt", &a.fixed);
     set_number(reader, f, "weight", &a.weight);
     return a;
 }
@@ -83,7 +91,7 @@ static ves_polish read_polish(ves_reader *reader, const ves_fields *f)
     set_number(reader, f, "x_tolerance", &p.x_tolerance);
     set_number(reader, f, "f_tolerance", &p.f_tolerance);
     set_int(reader, f, "starts", &p.starts);
-    set_flag(reader, f, "escape", &p.escape);
+    set_opposite(reader, f, "escape", &p.stay);
     return p;
 }
 

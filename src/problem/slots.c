@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "measure/registry.h"
 #include "problem/reader.h"
 
 typedef struct parameter {
@@ -29,10 +30,6 @@ typedef struct slots {
     ves_problem *problem;
 } slots;
 
-static const char reserved[] =
-    "u|v|pi|and|or|not|if|sin|cos|tan|asin|acos|atan|atan2|sinh|cosh|tanh|exp|log|sqrt|abs|min|max|hypot|"
-    "sign|floor|mod|objective|violation|feasible|evaluations|gradients|optima|auto|true|false|null";
-
 static bool is_identifier(const char *text)
 {
     size_t length = 0;
@@ -51,7 +48,7 @@ bool ves_reader_new_name(ves_reader *reader, const ves_node *word, const char *w
                          blank ? "nothing" : "\"", word->text, blank ? "" : "\"", what);
         return false;
     }
-    if (formulas && ves_words_find(reserved, word->text) >= 0) {
+    if (formulas && ves_words_find(ves_names_reserved, word->text) >= 0) {
         ves_reader_error(reader, VES_NAME, word,
                          "\"%s\" has a meaning of its own in formulas and cannot be the name of a %s",
                          word->text, what);

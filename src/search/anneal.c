@@ -6,7 +6,7 @@
 
 /* One annealing stage: a population of independent chains that meet at the end of each temperature. */
 
-enum { LEAST_DRAWS = 32, QUIET = 5, PROOFS = 16 };
+enum { LEAST_DRAWS = 32, QUIET = 5 };
 
 typedef struct anneal {
     ves_session *session;
@@ -21,6 +21,7 @@ typedef struct anneal {
     double c;
     int quiet;     /* temperatures without an acceptance */
     double proved; /* temperature of the last round of proofs */
+    long proofs;   /* that may still be asked for */
     ves_point **best;
     bool *refused;
 } anneal;
@@ -97,7 +98,7 @@ static void place(anneal *a, double weight, double margin)
         ves_chain *chain = &a->chain[k];
         chain->weight = weight;
         chain->margin = margin;
-        chain->heaviest = isnan(a->options->weight) ? 1e8 * weight : weight;
+        chain->heaviest = a->options->weight == 0 ? 1e8 * weight : weight;
         bool taken = session->ends > 1 || k == 0 || chain->best.verdict.status != VES_OK;
         ves_chain_place(chain, taken ? &session->end[k % session->ends].point : &chain->best);
     }
@@ -110,7 +111,7 @@ static ves_status warm(anneal *a)
 {
     ves_session *session = a->session;
     const ves_anneal *options = a->options;
-    bool needed = isnan(options->c0) || (session->m && isnan(options->weight));
+    bool needed = options->c0 == 0 || (session->m && options->weight == 0);
     int count = needed ? a->chains * a->draws : 0;
     if (needed) ves_pool_run(session->pool, a->chains, explore, a);
     flush(a);
@@ -118,12 +119,12 @@ static ves_status warm(anneal *a)
     double width = spread(a->value, count);
     double typical = median_violation(a->violation, count, session->tolerance);
     if (!(width > 0)) width = fmax(1e-3 * fabs(session->end[0].point.verdict.value), 1e-12);
-    double weight = isnan(options->weight) ? 2 * width / (typical > 0 ? typical : 1) : options->weight;
-    double c0 = isnan(options->c0) ? 0.3 * width : options->c0;
+    double weight = options->weight > 0 ? options->weight : 2 * width / (typical > 0 ? typical : 1);
+    double c0 = options->c0 > 0 ? options->c0 : 0.3 * width;
     session->spread = width;
     session->price = fmax(session->price, weight);
     place(a, weight, width);
-    long left = a->budget - (session->evaluations - a->before) - (a->budget > 10 * PROOFS ? PROOFS : 0);
+    long left = a->budget - (session->evaluations - a->before) - a->proofs;
     a->schedule->init(options, c0, session->n, left / a->chains, &a->cooling);
     return VES_OK;
 }
@@ -171,12 +172,16 @@ static ves_status log_temperature(anneal *a)
     return VES_OK;
 }
 
-/* The chains offer their bests; who is refused goes back, who passes has a new home. */
-static ves_status offer(anneal *a)
+/* The chains offer their bests; who is refused goes back, who passes has a new home. One proof is kept for
+ * the last round. */
+static ves_status offer(anneal *a, bool last)
 {
     ves_session *session = a->session;
+    long before = session->evaluations, most = last ? a->proofs : a->proofs - 1;
     for (int k = 0; k < a->chains; k++) a->best[k] = &a->chain[k].best;
-    VES_TRY(ves_session_offer(session, a->best, a->chains, a->refused));
+    if (most > VES_PROOFS_ROUND) most = VES_PROOFS_ROUND;
+    VES_TRY(ves_session_offer(session, a->best, a->chains, most, a->refused));
+    a->proofs -= session->evaluations - before;
     for (int k = 0; k < a->chains; k++) {
         ves_chain *chain = &a->chain[k];
         if (a->refused[k])
@@ -199,7 +204,7 @@ static ves_status temperature(anneal *a, int m)
     if (session->fault) return session->fault;
     VES_TRY(log_temperature(a));
     for (int k = 0; k < a->chains; k++) ves_chain_settle(&a->chain[k]);
-    if (a->c <= 0.5 * a->proved) VES_TRY(offer(a));
+    if (a->c <= 0.5 * a->proved) VES_TRY(offer(a, false));
     ves_session_progress(session);
     return VES_OK;
 }
@@ -223,7 +228,7 @@ static ves_status lower(anneal *a)
             return VES_OK;
         }
     }
-    ves_session_stop(session, "anneal: the budget of %ld evaluations is spent", a->budget);
+    ves_session_stop(session, "anneal: its budget of %ld evaluations is spent", a->budget);
     if (a->options->c_end < 1)
         ves_session_note(
             session,
@@ -235,7 +240,7 @@ static ves_status lower(anneal *a)
 static ves_status finish(anneal *a)
 {
     ves_session *session = a->session;
-    VES_TRY(offer(a));
+    VES_TRY(offer(a, true));
     ves_end *end = ves_session_ends(session, a->chains);
     if (!end) return VES_MEMORY;
     for (int k = 0; k < a->chains; k++)
@@ -258,6 +263,7 @@ ves_status ves_anneal_run(ves_session *session, const ves_anneal *options, long 
     anneal a = {
         .session = session, .options = options, .schedule = &ves_schedule_exponential, .budget = budget};
     a.before = session->evaluations;
+    a.proofs = budget / 10 < VES_PROOFS ? budget / 10 : VES_PROOFS;
     a.chains = population(options, budget);
     int draws = LEAST_DRAWS + session->n;
     long affordable = budget / 5;

@@ -21,8 +21,7 @@ static double violation(const ves_session *session, const double *constraint)
 {
     double worst = 0;
     for (int j = 0; j < session->m; j++) {
-        bool equality = session->problem->equality && session->problem->equality[j];
-        double excess = equality ? fabs(constraint[j]) : constraint[j];
+        double excess = ves_session_equality(session, j) ? fabs(constraint[j]) : constraint[j];
         if (!(excess <= worst)) worst = excess; /* NAN sticks */
         if (isnan(worst)) break;
     }
@@ -45,7 +44,8 @@ ves_status ves_asker_judge(ves_asker *asker, const ves_ask *ask, ves_verdict *ve
 {
     ves_session *session = asker->session;
     if (asker->fault) return asker->fault;
-    if (ves_session_over(session)) return VES_INTERRUPTED;
+    if (session->fault) return session->fault;
+    if (!asker->insists && ves_session_over(session)) return VES_INTERRUPTED;
     verdict->status = VES_OK;
     verdict->value = verdict->violation = NAN;
     ves_status status = session->problem->evaluate(session->problem->data, asker->worker, ask, verdict);

@@ -32,7 +32,7 @@ static ves_status look(ves_session *session, ves_asker *asker, ves_point *start)
     double *home = ves_arena_take(&session->arena, (size_t)session->n, sizeof *home);
     if (!home) return VES_MEMORY;
     memcpy(home, start->u, (size_t)session->n * sizeof *home);
-    long most = session->budget / 2 < MOST_DRAWS ? session->budget / 2 : MOST_DRAWS;
+    long half = (session->budget - session->reserved) / 2, most = half < MOST_DRAWS ? half : MOST_DRAWS;
     long k = 0;
     while (start->verdict.status != VES_OK && k < most) {
         draw(session->problem, session->seed, (uint64_t)k++, home, start->u);
@@ -40,7 +40,10 @@ static ves_status look(ves_session *session, ves_asker *asker, ves_point *start)
         VES_TRY(judge(asker, start, true));
     }
     const char *reason = ves_status_text(first);
-    if (start->verdict.status != VES_OK)
+    if (!most)
+        ves_session_note(session, "the start cannot be measured (%s), and the budget allows no other point",
+                         reason);
+    else if (start->verdict.status != VES_OK)
         ves_session_note(session, "neither the start (%s) nor any of %ld random points can be measured",
                          reason, k);
     else

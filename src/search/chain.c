@@ -33,12 +33,12 @@ static bool move_add(ves_chain *chain, const ves_proposal *proposal, double shar
 bool ves_chain_init(ves_chain *chain, ves_session *session, int index, const ves_anneal *options)
 {
     *chain =
-        (ves_chain){.adapt = options->adapt, .cut = options->adapt, .lowest = HUGE_VAL, .energy = HUGE_VAL};
+        (ves_chain){.adapt = !options->fixed, .cut = !options->fixed, .lowest = HUGE_VAL, .energy = HUGE_VAL};
     ves_asker_init(&chain->asker, session, index);
     uint32_t stream = (uint32_t)session->stage_index << 20 | (uint32_t)index;
     chain->random = (ves_random){.seed = session->seed, .chain = stream};
     if (!points_create(chain, session)) return false;
-    if (!options->adapt) return move_add(chain, &ves_proposal_gaussian, 1, options->step);
+    if (options->fixed) return move_add(chain, &ves_proposal_gaussian, 1, options->step);
     return move_add(chain, &ves_proposal_gaussian, 0.25, options->step) &&
            move_add(chain, &ves_proposal_heavy, 0.75, options->step);
 }

@@ -10,6 +10,8 @@
 enum { RESTARTS = 5, HANG = 20, HANG_LEAST = 10000 };
 
 static const double difference = 3e-8; /* step in u: about sqrt(rounding) */
+static const double squeezed =
+    1e-6; /* in u: a line search that ends so near to a failed candidate ran into it */
 
 static bool index_create(ves_descent *d)
 {
@@ -18,8 +20,7 @@ static bool index_create(ves_descent *d)
     d->equality = ves_arena_take(&session->arena, (size_t)session->m, sizeof(int));
     if (!d->inequality || !d->equality) return false;
     for (int j = 0; j < session->m; j++) {
-        bool equality = session->problem->equality && session->problem->equality[j];
-        if (equality)
+        if (ves_session_equality(session, j))
             d->equality[d->equalities++] = j;
         else
             d->inequality[d->inequalities++] = j;
@@ -36,8 +37,9 @@ bool ves_descent_create(ves_descent *d, ves_session *session, int member, const 
     ves_asker_init(&d->asker, session, member);
     if (!index_create(d)) return false;
     d->recipe = ves_recipe_find(options->algorithm, session->n, session->problem->gradients);
-    double **rows[] = {&d->range, &d->route, &d->u, &d->x, &d->shifted, &d->from, &d->last.gradient};
-    for (int k = 0; k < 7; k++)
+    double **rows[] = {&d->range,   &d->route, &d->u,      &d->x,
+                       &d->shifted, &d->from,  &d->broken, &d->last.gradient};
+    for (int k = 0; k < 8; k++)
         if (!(*rows[k] = ves_arena_take(arena, n, sizeof(double)))) return false;
     double **columns[] = {&d->measured, &d->shifted_constraint, &d->last.constraint, &d->multiplier};
     for (int k = 0; k < 4; k++)
@@ -61,21 +63,21 @@ static ves_status halt(ves_descent *d, ves_status status)
     return status;
 }
 
+/* SLSQP would ask for ever. Another run may do better. */
+static ves_status lose(ves_descent *d, const char *sentence)
+{
+    d->lost = sentence;
+    d->asked = false;
+    d->calls = 0;
+    if (d->opt) nlopt_force_stop(d->opt);
+    return VES_NO_NUMBER;
+}
+
 void ves_descent_keep(const ves_descent *d, ves_point *point)
 {
     ves_point from = {.verdict = d->last, .u = d->u, .x = d->x};
     ves_point_copy(point, &from, d->session->n, d->session->m);
     point->verdict.gradient = point->verdict.jacobian = NULL;
-}
-
-/* The order of all searches, but within the tolerance violations have their price: else the best is always
- * the candidate that uses the tolerance up. */
-static bool better(const ves_descent *d, const ves_verdict *a, const ves_verdict *b)
-{
-    double tolerance = d->session->tolerance, tight = d->session->tight;
-    bool both = b->status == VES_OK && a->violation <= tolerance && b->violation <= tolerance;
-    if (!both) return ves_verdict_better(a, b, tolerance);
-    return ves_verdict_energy(a, d->price, tight) < ves_verdict_energy(b, d->price, tight);
 }
 
 /* Returns whether the last candidate is the best. */
@@ -84,7 +86,7 @@ static bool remember(ves_descent *d)
     const ves_session *session = d->session;
     if (d->last.status != VES_OK) return false;
     if (session->m) memcpy(d->measured, d->last.constraint, (size_t)session->m * sizeof(double));
-    if (!better(d, &d->last, &d->best.verdict)) return false;
+    if (!ves_session_better_at(session, d->price, &d->last, &d->best.verdict)) return false;
     ves_descent_keep(d, &d->best);
     return true;
 }
@@ -102,8 +104,8 @@ static ves_status shift(ves_descent *d, int i, double u, ves_verdict *verdict)
     return VES_OK;
 }
 
-/* Forward differences, backward at the upper wall and where the forward candidate fails; where both fail the
- * slope is 0. */
+/* Forward differences, backward at the upper wall and where the forward candidate fails; where both fail, or
+ * the budget has no second one, the slope is 0. */
 static ves_status slope(ves_descent *d, int i)
 {
     const int n = d->session->n, m = d->session->m;
@@ -113,7 +115,8 @@ static ves_status slope(ves_descent *d, int i)
     if (near.status != VES_OK) {
         step = -step;
         double u = d->u[i] + step;
-        if (u >= 0 && u <= 1) VES_TRY(shift(d, i, u, &near));
+        bool affordable = d->budget - d->used > n - 1 - i; /* the others' come first */
+        if (u >= 0 && u <= 1 && affordable) VES_TRY(shift(d, i, u, &near));
     }
     double h = d->shifted[i] - d->x[i];
     bool ok = near.status == VES_OK && h != 0;
@@ -141,6 +144,10 @@ static ves_status judge(ves_descent *d, bool slopes)
     if (exact && last->status == VES_OK &&
         !(all_finite(last->gradient, session->n) && all_finite(last->jacobian, session->n * session->m)))
         last->status = VES_NO_NUMBER;
+    if (last->status != VES_OK) {
+        d->broke = true;
+        memcpy(d->broken, d->u, (size_t)session->n * sizeof(double));
+    }
     ves_asker_record(&d->asker, d->x, last, exact, NAN, remember(d));
     if (slopes && !exact && last->status == VES_OK)
         for (int i = 0; i < session->n; i++) VES_TRY(slope(d, i));
@@ -152,13 +159,17 @@ ves_status ves_descent_look(ves_descent *d, const double *u, bool slopes)
     size_t bytes = (size_t)d->session->n * sizeof *u;
     d->calls++;
     if (d->asked && !memcmp(u, d->u, bytes) && (d->sloped || !slopes)) {
-        if (d->calls > HANG * d->budget + HANG_LEAST) return halt(d, VES_INTERRUPTED);
-        return VES_OK;
+        if (d->calls <= HANG * d->budget + HANG_LEAST) return VES_OK;
+        return lose(d, "the algorithm lost its way: it asked for the same point again and again");
     }
-    if (d->used >= d->budget) return halt(d, VES_INTERRUPTED);
+    long cost = slopes && !d->session->problem->gradients ? 1 + (long)d->session->n : 1;
+    if (d->budget - d->used < cost) {
+        d->spent = true;
+        return halt(d, VES_INTERRUPTED);
+    }
     d->asked = false;
     if (!all_finite(u, d->session->n))
-        return halt(d, VES_INTERRUPTED); /* SLSQP lost its way and would ask this for ever */
+        return lose(d, "the algorithm lost its way: it asked for a point that is no number");
     for (int i = 0; i < d->session->n; i++) d->u[i] = u[i] < 0 ? 0 : u[i] > 1 ? 1 : u[i];
     ves_point_place(d->session->problem, d->u, d->x);
     ves_status status = judge(d, slopes);
@@ -231,14 +242,23 @@ static bool tolerances(const ves_descent *d, nlopt_opt opt, double factor)
            nlopt_set_xtol_abs1(opt, factor * d->options->x_tolerance) > 0;
 }
 
+/* The unit box, or a part of it around the route when a run must not go far. */
+static bool bounds(ves_descent *d)
+{
+    double *wall = d->shifted; /* spare here, and NLopt copies */
+    for (int i = 0; i < d->session->n; i++) wall[i] = fmax(0, d->route[i] - d->reach);
+    bool ok = nlopt_set_lower_bounds(d->opt, wall) > 0;
+    for (int i = 0; i < d->session->n; i++) wall[i] = fmin(1, d->route[i] + d->reach);
+    return ok && nlopt_set_upper_bounds(d->opt, wall) > 0;
+}
+
 static bool set_up(ves_descent *d, double step, double factor)
 {
     d->opt = nlopt_create(d->recipe.id, (unsigned)d->session->n);
     if (!d->opt) return false;
-    bool ok = nlopt_set_min_objective(d->opt, objective, d) > 0 && nlopt_set_lower_bounds1(d->opt, 0) > 0 &&
-              nlopt_set_upper_bounds1(d->opt, 1) > 0;
+    bool ok = nlopt_set_min_objective(d->opt, objective, d) > 0 && bounds(d);
     ok = ok && tolerances(d, d->opt, factor);
-    if (!d->recipe.gradient) ok = ok && nlopt_set_initial_step1(d->opt, step) > 0;
+    if (!d->recipe.gradient) ok = ok && nlopt_set_initial_step1(d->opt, fmin(step, 0.4 * d->reach)) > 0;
     double *limit = d->shifted_constraint; /* spare here, and NLopt copies */
     for (int j = 0; j < d->session->m; j++) limit[j] = d->session->tight;
     if (d->inequalities && !d->recipe.inequalities)
@@ -320,9 +340,35 @@ static void forget(ves_descent *d, const ves_point *start)
 {
     ves_point_copy(&d->best, start, d->session->n, d->session->m);
     for (int j = 0; j < d->session->m; j++) d->measured[j] = start->verdict.constraint[j];
-    d->halted = d->asked = false;
-    d->scale = d->shrink = 1;
+    d->halted = d->spent = d->asked = false;
+    d->scale = d->shrink = d->reach = 1;
     d->offset = d->lowest = d->highest = d->price = d->penalty = 0;
+}
+
+/* A run that ends at a candidate that failed, or squeezed against one, has not converged, whatever NLopt
+ * says: it saw a high plateau without slopes. The next one begins at our own best and goes less far: half the
+ * way to the failure or, where that is next door, a step. Returns whether a next one is due. */
+static bool ended_astray(ves_descent *d, double step)
+{
+    double way = 0;
+    for (int i = 0; d->broke && i < d->session->n; i++) way = fmax(way, fabs(d->broken[i] - d->best.u[i]));
+    bool last = d->asked && d->last.status != VES_OK;
+    d->beside = d->broke && (last || way <= squeezed);
+    if (d->beside || d->lost)
+        d->reach = d->beside && way > squeezed ? 0.5 * way : step;
+    else
+        d->reach = 1;
+    return d->beside || d->lost;
+}
+
+static ves_status descend(ves_descent *d, const ves_point *from, bool first, double step)
+{
+    d->lost = NULL;
+    d->broke = d->beside = false;
+    memcpy(d->route, from->u, (size_t)d->session->n * sizeof(double));
+    ves_status status = rescale(d, from->u, first);
+    if (status == VES_OK) status = once(d, step);
+    return d->lost && status == VES_NO_NUMBER ? VES_OK : status;
 }
 
 ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *end)
@@ -332,13 +378,22 @@ ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *en
     ves_point_copy(end, start, n, m);
     ves_status status = VES_OK;
     double step = 0.1;
-    for (int k = 0; k < RESTARTS && status == VES_OK && !d->halted; k++, step *= 0.3) {
-        memcpy(d->route, end->u, (size_t)n * sizeof(double));
-        status = rescale(d, end->u, k == 0);
-        if (status == VES_OK) status = once(d, step);
+    bool due = true; /* what stopped at the edge of its own reach has not converged */
+    for (int k = 0; (k < RESTARTS || due) && status == VES_OK && !d->halted; k++, step *= 0.3) {
+        bool limited = d->reach < 1;
+        status = descend(d, end, k == 0, step);
         ves_verdict before = end->verdict;
         ves_point_copy(end, &d->best, n, m);
-        if (k && !progressed(d, &before, &end->verdict)) break;
+        bool astray = ended_astray(d, step);
+        due = limited && !astray;
+        if (!astray && k && !progressed(d, &before, &end->verdict)) break;
     }
     return d->asker.fault ? d->asker.fault : status;
+}
+
+const char *ves_descent_sentence(const ves_descent *d)
+{
+    if (d->spent || d->used >= d->budget) return "the budget of evaluations is spent";
+    if (d->lost) return d->lost;
+    return d->beside ? "ended beside a candidate that cannot be measured" : ves_recipe_sentence(d->code);
 }

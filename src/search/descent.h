@@ -19,6 +19,11 @@ typedef struct ves_descent {
     nlopt_opt opt;            /* while it runs */
     nlopt_result code;        /* of the last run */
     bool halted;              /* budget or interrupt: NLopt has been told to stop */
+    bool spent;               /* the budget allows no further candidate */
+    const char *lost;         /* a sentence: NLopt was stopped because it makes no sense any more; or NULL */
+    bool broke, beside;       /* a candidate of the last run failed; its last one, or one beside the best */
+    double *broken;           /* [n] the last that failed */
+    double reach;             /* how far from where it began a run may go, in the unit box */
 
     double *route; /* [n] NLopt's own x */
     double *u, *x; /* [n] the last candidate */
@@ -48,8 +53,11 @@ void ves_descent_destroy(ves_descent *descent);
 /* From start to end. Returns a fault or VES_INTERRUPTED; end holds in any case. */
 ves_status ves_descent_run(ves_descent *descent, const ves_point *start, ves_point *end);
 
+/* A sentence: why it ended. */
+const char *ves_descent_sentence(const ves_descent *descent);
+
 /* Judges u (unit box), once; the answer is in descent->last. A candidate that fails is last.status > 0.
- * VES_INTERRUPTED also when the budget is spent. */
+ * VES_INTERRUPTED also when the budget is spent; VES_NO_NUMBER for a u that is none: nothing was asked. */
 ves_status ves_descent_look(ves_descent *descent, const double *u, bool slopes);
 
 /* Copies what was last judged into a point. */

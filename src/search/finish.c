@@ -59,6 +59,8 @@ static ves_status alike(ves_asker *asker, const ves_point *a, const ves_point *b
 
 typedef struct clusters {
     int count;
+    int skipped;    /* ends that are not listed: no evaluation was left for their proofs */
+    long proofs;    /* that may still be asked for */
     ves_end *first; /* the best of each */
     int *hits;
 } clusters;
@@ -68,6 +70,12 @@ static void cluster_add(clusters *c, ves_session *session, const ves_end *end, i
     ves_point_copy(&c->first[c->count].point, &end->point, session->n, session->m);
     c->first[c->count].saddle = end->saddle;
     c->hits[c->count++] = hits;
+}
+
+/* At the end nothing is kept back. */
+static long spare(const ves_session *session)
+{
+    return session->budget - session->evaluations;
 }
 
 /* Puts one end into the cluster that it belongs to, or into a new one when it passes its proof. */
@@ -83,10 +91,16 @@ static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_
             c->first[k].saddle = true;
         return VES_OK;
     }
-    bool good = true;
+    ves_proof proof = VES_PROOF_PASSED;
     ves_asker_flush(asker); /* the proof is told after what led to it, with any number of workers */
-    if (!ves_session_over(session)) VES_TRY(ves_session_prove(session, &end->point, &good));
-    if (good) cluster_add(c, session, end, 1);
+    if (!ves_session_over(session)) {
+        if (ves_session_costs(session, &end->point) && (c->proofs-- <= 0 || spare(session) <= 0)) {
+            c->skipped++;
+            return VES_OK;
+        }
+        VES_TRY(ves_session_prove(session, &end->point, &proof));
+    }
+    if (proof != VES_PROOF_REFUSED) cluster_add(c, session, end, 1);
     return VES_OK;
 }
 
@@ -107,21 +121,40 @@ static ves_status cluster(clusters *c, ves_session *session, const ves_point *be
     ves_asker_flush(&asker);
     ves_asker_destroy(&asker);
     if (!c->hits[0]) c->hits[0] = 1;
+    if (c->skipped && session->best.verdict.status == VES_OK)
+        ves_session_note(session, "the budget left no proofs for %d more ends: they are not listed",
+                         c->skipped);
     return status == VES_INTERRUPTED ? VES_OK : status;
 }
 
-/* The best that may be shown: proved or, when nothing passes, the best all the same, as infeasible. */
-static ves_status choose(ves_session *session, const ves_point **best, bool *proved)
+/* All ends and the start are offered; of the proofs half, so that some are left for the optima. */
+static ves_status offer(ves_session *session, long *proofs)
 {
-    bool refused;
+    int count = session->ends + 1;
+    ves_point **point = ves_arena_take(&session->arena, (size_t)count, sizeof *point);
+    bool *refused = ves_arena_take(&session->arena, (size_t)count, sizeof *refused);
+    if (!point || !refused) return VES_MEMORY;
+    for (int k = 0; k < session->ends; k++) point[k] = &session->end[k].point;
+    point[count - 1] = &session->start;
+    long before = session->evaluations, most = ves_session_over(session) ? VES_PROOFS_ROUND : VES_PROOFS / 2;
+    if (most > spare(session)) most = spare(session);
+    VES_TRY(ves_session_offer(session, point, count, most, refused));
+    *proofs = VES_PROOFS - (session->evaluations - before);
+    return VES_OK;
+}
+
+/* The best that may be shown: proved or, when nothing passes, the best all the same, as infeasible. */
+static ves_status choose(ves_session *session, const ves_point **best, bool *proved, long *proofs)
+{
     ves_point *start = &session->start;
-    VES_TRY(ves_session_offer(session, &start, 1, &refused));
+    VES_TRY(offer(session, proofs));
     *proved = session->best.verdict.status == VES_OK;
     *best = *proved ? &session->best : start;
     if (*proved || start->verdict.status != VES_OK) return VES_OK;
     if (session->ends && ves_session_better(session, &session->end[0].point.verdict, &start->verdict))
         *best = &session->end[0].point;
-    ves_session_note(session, "no best passed its proof: the result is unproved and counts as infeasible");
+    const char *why = session->refused ? "no best passed its proof" : "nothing was proved";
+    ves_session_note(session, "%s: the result is unproved and counts as infeasible", why);
     return VES_OK;
 }
 
@@ -186,7 +219,8 @@ static ves_status fill(box *b, ves_session *session)
     const ves_point *best;
     bool proved;
     clusters c = {0};
-    VES_TRY(choose(session, &best, &proved));
+    VES_TRY(choose(session, &best, &proved, &c.proofs));
+    if (!proved) c.proofs = 0; /* what is listed beside an unproved best is not better for a proof */
     if (best->verdict.status == VES_OK) VES_TRY(cluster(&c, session, best));
     if (session->fault) return session->fault;
     r->n = session->n;

@@ -15,20 +15,14 @@ static const double first_penalty = 10, most_penalty = 1e5, faster = 10, enough 
 
 static bool held(const ves_descent *d, int j)
 {
-    bool equality = d->session->problem->equality && d->session->problem->equality[j];
-    return equality ? d->recipe.equalities : d->recipe.inequalities;
-}
-
-static bool is_equality(const ves_descent *d, int j)
-{
-    return d->session->problem->equality && d->session->problem->equality[j];
+    return ves_session_equality(d->session, j) ? d->recipe.equalities : d->recipe.inequalities;
 }
 
 /* What the constraint pulls with: lambda + r c, not negative for an inequality. */
 static double pull(const ves_descent *d, int j)
 {
     double t = d->multiplier[j] + d->penalty * d->last.constraint[j];
-    return is_equality(d, j) || t > 0 ? t : 0;
+    return ves_session_equality(d->session, j) || t > 0 ? t : 0;
 }
 
 double ves_lagrange_value(const ves_descent *d)
@@ -87,6 +81,7 @@ static ves_status inner(ves_descent *d, double step, double factor, double *erro
     d->shrink = fmax(1, steepness(d));
     d->lowest = d->highest = ((d->last.value - d->offset) / d->scale + ves_lagrange_value(d)) / d->shrink;
     VES_TRY(ves_descent_minimise(d, step, factor));
+    if (d->lost) return VES_OK;
     VES_TRY(ves_descent_look(d, d->route, false));
     if (d->last.status == VES_OK)
         *error = update(d);
@@ -108,7 +103,7 @@ ves_status ves_lagrange_run(ves_descent *d, double step)
         double error;
         memcpy(d->from, d->route, bytes);
         status = inner(d, step, factor, &error);
-        if (status != VES_OK || d->halted) break;
+        if (status != VES_OK || d->halted || d->lost) break;
         double way = moved(d);
         step = fmin(fmax(way, 1e-5), 0.1);
         if (error <= d->session->tight && way <= 100 * d->options->x_tolerance) break;

@@ -6,28 +6,17 @@
 
 ves_anneal ves_anneal_default(void)
 {
-    return (ves_anneal){.c0 = NAN, .s = NAN, .c_end = NAN, .step = NAN, .adapt = true, .weight = NAN};
+    return (ves_anneal){0};
 }
 
 ves_polish ves_polish_default(void)
 {
-    return (ves_polish){.x_tolerance = NAN, .f_tolerance = NAN, .escape = true};
+    return (ves_polish){0};
 }
 
 ves_search_options ves_search_options_default(void)
 {
     return (ves_search_options){.seed = 1};
-}
-
-/* 0 and NAN both leave the choice to the search. */
-static bool given(double value)
-{
-    return !isnan(value) && value != 0;
-}
-
-static double positive_or(double value, double other)
-{
-    return given(value) ? value : other;
 }
 
 static ves_status check_box(const ves_search_problem *problem)
@@ -45,16 +34,14 @@ static ves_status check_box(const ves_search_problem *problem)
 
 static bool bad(double value)
 {
-    return given(value) && !(value > 0 && isfinite(value));
+    return !(value >= 0 && isfinite(value));
 }
 
 static ves_status check_anneal(const ves_anneal *a)
 {
     if (a->evaluations < 0 || a->chains < 0) return VES_RANGE;
     if (bad(a->c0) || bad(a->c_end) || bad(a->step) || bad(a->weight)) return VES_RANGE;
-    if (given(a->c_end) && a->c_end > 1) return VES_RANGE;
-    if (given(a->step) && a->step > 1) return VES_RANGE;
-    return given(a->s) && !(a->s > 0 && a->s < 1) ? VES_RANGE : VES_OK;
+    return a->c_end <= 1 && a->step <= 1 && a->s >= 0 && a->s < 1 ? VES_OK : VES_RANGE;
 }
 
 static ves_status check_polish(const ves_polish *p)
@@ -102,15 +89,22 @@ static long polish_budget(const ves_search_problem *problem, const ves_polish *p
     return starts * (2000 + 400 * n);
 }
 
+/* What stays 0 is found from the data. */
 static void complete_anneal(ves_anneal *a, int n)
 {
     if (!a->chains) a->chains = 4;
     if (!a->evaluations) a->evaluations = 2000 + 2000 * (long)n;
-    a->c0 = positive_or(a->c0, NAN);
-    a->s = positive_or(a->s, NAN);
-    a->c_end = positive_or(a->c_end, 1e-4);
-    a->step = positive_or(a->step, 0.1);
-    a->weight = positive_or(a->weight, NAN);
+    if (a->c_end == 0) a->c_end = 1e-4;
+    if (a->step == 0) a->step = 0.1;
+}
+
+static void complete_polish(const ves_search_problem *problem, ves_polish *p, int ends)
+{
+    if (!p->starts || p->starts > ends) p->starts = ends;
+    if (!p->evaluations) p->evaluations = polish_budget(problem, p, p->starts);
+    p->algorithm = ves_search_algorithm(problem, p);
+    if (p->x_tolerance == 0) p->x_tolerance = 1e-9;
+    if (p->f_tolerance == 0) p->f_tolerance = 1e-12;
 }
 
 static long asked(const ves_stage *stage)
@@ -118,7 +112,8 @@ static long asked(const ves_stage *stage)
     return stage->kind == VES_STAGE_ANNEAL ? stage->anneal.evaluations : stage->polish.evaluations;
 }
 
-/* With gradients a polish costs less than a chain's warm-up: many short chains find more basins than few long ones. */
+/* With gradients a polish costs less than a chain's warm-up: many short chains find more basins than few long
+ * ones. */
 enum { AUTO_CHAINS = 16, AUTO_CHAINS_VALUES = 8 };
 
 /* Fills in every default, so that the stages need not. */
@@ -143,17 +138,14 @@ void ves_search_complete(ves_session *session, const ves_search_options *options
             ends = stage->anneal.chains;
             sum += stage->anneal.evaluations;
         } else {
-            ves_polish *p = &stage->polish;
-            if (!p->starts || p->starts > ends) p->starts = ends;
-            if (!p->evaluations) p->evaluations = polish_budget(problem, p, p->starts);
-            p->algorithm = ves_search_algorithm(problem, p);
-            p->x_tolerance = positive_or(p->x_tolerance, 1e-9);
-            p->f_tolerance = positive_or(p->f_tolerance, 1e-12);
-            ends = p->starts;
-            sum += p->evaluations;
+            complete_polish(problem, &stage->polish, ends);
+            ends = stage->polish.starts;
+            sum += stage->polish.evaluations;
         }
     }
-    session->budget = options->evaluations ? options->evaluations : sum + 1; /* and the start */
+    long whole = options->evaluations, part = whole / 20;
+    session->budget = whole ? whole : sum + 1 + VES_PROOFS; /* and the start */
+    session->reserved = !whole || part > VES_PROOFS ? VES_PROOFS : part ? part : whole > 1;
 }
 
 /* What is left of the whole budget is shared in proportion to what the stages to come would take by

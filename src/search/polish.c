@@ -17,7 +17,7 @@ typedef struct task {
     ves_point wait[ENDS + 1];
     int ends;
     ves_end end[ENDS + 1];
-    int escapes;
+    int escapes, halves;      /* saddles; those that were left to one side only */
     double curvature, height; /* of the first saddle met */
     int mostly;
     bool stuck; /* a saddle that could not be left */
@@ -27,6 +27,7 @@ typedef struct task {
 typedef struct polish {
     ves_session *session;
     int tasks, first;
+    long proofs; /* that may be asked for */
     task *task;
 } polish;
 
@@ -34,7 +35,7 @@ static bool task_create(task *t, ves_session *session, int index, const ves_poli
 {
     if (!ves_descent_create(&t->descent, session, index, options, budget)) return false;
     t->start = &session->end[index].point;
-    t->checks = options->escape && t->descent.recipe.gradient && session->problem->gradients &&
+    t->checks = !options->stay && t->descent.recipe.gradient && session->problem->gradients &&
                 session->n <= VES_SADDLE_MOST;
     for (int k = 0; k < ENDS + 1; k++) {
         if (!ves_point_create(&session->arena, session->n, session->m, &t->wait[k])) return false;
@@ -60,6 +61,7 @@ static ves_status leave(task *t, const ves_point *saddle, bool *left)
         t->wait[t->waiting + 1] = moved;
     }
     t->waiting += found[0] + found[1];
+    t->halves += found[0] != found[1];
     *left = found[0] || found[1];
     return status;
 }
@@ -110,20 +112,25 @@ static const char *name_variable(ves_session *session, int i)
 static void note_saddles(polish *p)
 {
     const task *first = NULL;
-    int met = 0, stuck = 0;
+    int met = 0, stuck = 0, saddles = 0, halves = 0;
     for (int k = 0; k < p->tasks; k++) {
         if (!p->task[k].escapes) continue;
         if (!first) first = &p->task[k];
         met++;
         stuck += p->task[k].stuck;
+        saddles += p->task[k].escapes;
+        halves += p->task[k].halves;
     }
     if (!met) return;
+    const char *way = halves == 0        ? "left it both ways"
+                      : halves < saddles ? "left it, not always both ways"
+                                         : "left it one way";
     ves_session_note(p->session,
                      "%d of %d polishes met a saddle (value %.9g): found a direction of negative curvature "
                      "(eigenvalue %.3g, "
                      "mostly %s); %s",
                      met, p->tasks, first->height, first->curvature, name_variable(p->session, first->mostly),
-                     stuck ? "not every one could be left" : "left it both ways");
+                     stuck ? "not every one could be left" : way);
 }
 
 /* The sentence of the best end's task. */
@@ -135,10 +142,7 @@ static void tell_stop(polish *p, const ves_polish *options)
         const task *t = &p->task[k];
         if (ves_session_better(session, &t->end[0].point.verdict, &best->end[0].point.verdict)) best = t;
     }
-    const ves_descent *d = &best->descent;
-    const char *reason =
-        d->used >= d->budget ? "the budget of evaluations is spent" : ves_recipe_sentence(d->code);
-    ves_session_stop(session, "%s: %s", options->algorithm, reason);
+    ves_session_stop(session, "%s: %s", options->algorithm, ves_descent_sentence(&best->descent));
 }
 
 static ves_status collect(polish *p)
@@ -162,7 +166,7 @@ static ves_status collect(polish *p)
         session->end = end;
         session->ends = count;
     }
-    return ves_session_offer(session, point, count, refused);
+    return ves_session_offer(session, point, count, p->proofs, refused);
 }
 
 /* Tasks run in waves of as many as there are workers, so that progress is told between; they do not depend on
@@ -205,12 +209,14 @@ static void set_price(polish *p)
 ves_status ves_polish_run(ves_session *session, const ves_polish *options, long budget)
 {
     polish p = {.session = session, .tasks = population(session, options, budget)};
+    p.proofs = budget / 10 < VES_PROOFS_ROUND ? budget / 10 : VES_PROOFS_ROUND;
+    budget -= p.proofs;
     session->stage_name = options->algorithm;
     p.task = ves_arena_take(&session->arena, (size_t)p.tasks, sizeof *p.task);
     if (!p.task) return VES_MEMORY;
     for (int k = 0; k < p.tasks; k++)
         if (!task_create(&p.task[k], session, k, options, budget / p.tasks)) return VES_MEMORY;
-    if (options->escape && session->problem->gradients && session->n > VES_SADDLE_MOST)
+    if (!options->stay && session->problem->gradients && session->n > VES_SADDLE_MOST)
         ves_session_note(session, "no check for saddles: more than %d variables", VES_SADDLE_MOST);
     ves_status status = work(&p);
     if (session->price == 0) set_price(&p);

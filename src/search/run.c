@@ -2,9 +2,8 @@
 
 /* The one loop: stages one after another, each from the ends of the one before. */
 
-static ves_status stage_run(ves_session *session, int k)
+static ves_status stage_run(ves_session *session, int k, long budget)
 {
-    long budget = ves_search_share(session, k);
     session->stage_index = k;
     const ves_stage *stage = &session->stage[k];
     return stage->kind == VES_STAGE_ANNEAL ? ves_anneal_run(session, &stage->anneal, budget)
@@ -21,12 +20,12 @@ static ves_status work(ves_session *session)
     }
     for (int k = 0; k < session->stages; k++) {
         if (ves_session_over(session)) return session->fault;
-        if (ves_session_left(session) <= 0) {
-            ves_session_note(session, "the budget of %ld evaluations was spent before stage %d",
+        long budget = ves_search_share(session, k);
+        if (budget > 0)
+            VES_TRY(stage_run(session, k, budget));
+        else
+            ves_session_note(session, "the budget (%ld in all) left no evaluations for stage %d",
                              session->budget, k + 1);
-            return VES_OK;
-        }
-        VES_TRY(stage_run(session, k));
     }
     return session->fault;
 }

@@ -96,18 +96,13 @@ static void solve(ves_saddle *s, const ves_descent *d)
     }
 }
 
-static bool is_equality(const ves_descent *d, int j)
-{
-    return d->session->problem->equality && d->session->problem->equality[j];
-}
-
 /* The inequality that pulls hardest the wrong way is not active; returns its place, or -1. */
 static int wrong(const ves_saddle *s, const ves_descent *d)
 {
     int worst = -1;
     for (int k = 0; k < s->active; k++) {
         int j = s->row[k];
-        if (is_equality(d, j) || s->multiplier[j] >= 0) continue;
+        if (ves_session_equality(d->session, j) || s->multiplier[j] >= 0) continue;
         if (worst < 0 || s->multiplier[j] < s->multiplier[s->row[worst]]) worst = k;
     }
     return worst;
@@ -117,7 +112,7 @@ static void multipliers(ves_saddle *s, const ves_descent *d)
 {
     int rows = 0;
     for (int j = 0; j < d->session->m; j++)
-        if (is_equality(d, j) || d->last.constraint[j] >= -near_limit) s->row[rows++] = j;
+        if (ves_session_equality(d->session, j) || d->last.constraint[j] >= -near_limit) s->row[rows++] = j;
     for (s->active = rows;;) {
         span(s, d);
         solve(s, d);

@@ -16,12 +16,15 @@ ves_status ves_session_init(ves_session *session, const ves_search_problem *prob
     session->tight = 1e-4 * session->tolerance;
     session->seen = (ves_verdict){.status = VES_NO_NUMBER, .value = HUGE_VAL, .violation = HUGE_VAL};
     session->temperature = session->acceptance = NAN;
-    session->stop = "nothing was asked";
+    session->stop = "the budget allows no more than the start";
     session->stage_name = "start";
     atomic_init(&session->stopped, false);
     ves_search_complete(session, options);
     session->pool = ves_pool_create(problem->workers);
-    bool ok = session->pool && ves_point_create(&session->arena, session->n, session->m, &session->start) &&
+    session->known =
+        ves_arena_take(&session->arena, (size_t)VES_PROOFS_KNOWN * (size_t)session->n, sizeof(double));
+    bool ok = session->pool && session->known &&
+              ves_point_create(&session->arena, session->n, session->m, &session->start) &&
               ves_point_create(&session->arena, session->n, session->m, &session->best);
     return ok ? VES_OK : VES_MEMORY;
 }
@@ -45,16 +48,27 @@ bool ves_session_over(ves_session *session)
 
 long ves_session_left(const ves_session *session)
 {
-    return session->evaluations < session->budget ? session->budget - session->evaluations : 0;
+    long left = session->budget - session->reserved - session->evaluations;
+    return left > 0 ? left : 0;
 }
 
-bool ves_session_better(const ves_session *session, const ves_verdict *a, const ves_verdict *b)
+bool ves_session_equality(const ves_session *session, int j)
+{
+    return session->problem->equality && session->problem->equality[j];
+}
+
+bool ves_session_better_at(const ves_session *session, double price, const ves_verdict *a,
+                           const ves_verdict *b)
 {
     bool both = a->status == VES_OK && b->status == VES_OK && a->violation <= session->tolerance &&
                 b->violation <= session->tolerance;
     if (!both) return ves_verdict_better(a, b, session->tolerance);
-    return ves_verdict_energy(a, session->price, session->tight) <
-           ves_verdict_energy(b, session->price, session->tight);
+    return ves_verdict_energy(a, price, session->tight) < ves_verdict_energy(b, price, session->tight);
+}
+
+bool ves_session_better(const ves_session *session, const ves_verdict *a, const ves_verdict *b)
+{
+    return ves_session_better_at(session, session->price, a, b);
 }
 
 /* By insertion: stable, and there are few ends. */
@@ -116,36 +130,63 @@ void ves_session_progress(ves_session *session)
     session->hooks.progress(session->hooks.data, &progress);
 }
 
-/* Asks for the dear checks, in the caller's thread. Refusals are noted once for each reason. */
-ves_status ves_session_prove(ves_session *session, ves_point *point, bool *good)
+/* The polish's own accuracy: two points so near are one shape. */
+static const double near_refused = 1e-5;
+
+static bool is_refused(const ves_session *session, const ves_point *point)
 {
-    *good = point->proved;
-    if (point->proved) return VES_OK;
+    long count = session->refused < VES_PROOFS_KNOWN ? session->refused : VES_PROOFS_KNOWN;
+    for (long k = 0; k < count; k++) {
+        const double *u = session->known + k * session->n;
+        double apart = 0;
+        for (int i = 0; i < session->n; i++) apart = fmax(apart, fabs(point->u[i] - u[i]));
+        if (apart <= near_refused) return true;
+    }
+    return false;
+}
+
+bool ves_session_costs(const ves_session *session, const ves_point *point)
+{
+    return !point->proved && !is_refused(session, point);
+}
+
+/* Refusals are noted once for each reason. */
+static void refuse(ves_session *session, const ves_point *point, ves_status status)
+{
+    size_t n = (size_t)session->n;
+    memcpy(session->known + (size_t)(session->refused++ % VES_PROOFS_KNOWN) * n, point->u,
+           n * sizeof(double));
+    int kind = (int)status;
+    bool listed = kind > 0 && kind < VES_STATUS_KINDS;
+    if (!listed || !session->refusal[kind])
+        ves_session_note(session, "a best was refused by its proof: %s", ves_status_text(status));
+    if (listed) session->refusal[kind] = true;
+}
+
+/* In the caller's thread. An evaluator that is interrupted in its proof has neither passed nor refused it. */
+ves_status ves_session_prove(ves_session *session, ves_point *point, ves_proof *proof)
+{
+    *proof = point->proved ? VES_PROOF_PASSED : VES_PROOF_REFUSED;
+    if (!ves_session_costs(session, point)) return VES_OK;
     ves_asker asker;
     ves_asker_init(&asker, session, -1);
+    asker.insists = true;
     double *constraint = ves_arena_take(&session->arena, (size_t)session->m, sizeof(double));
     if (!constraint) return VES_MEMORY;
     ves_verdict verdict = {.constraint = constraint};
     ves_ask ask = {.x = point->x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
-    bool stopped =
-        atomic_exchange(&session->stopped, false); /* an interrupted search still proves its best */
-    ves_search_hooks hooks = session->hooks;
-    session->hooks.stopped = NULL;
     ves_status status = ves_asker_judge(&asker, &ask, &verdict);
-    session->hooks.stopped = hooks.stopped;
-    atomic_store(&session->stopped, stopped);
-    *good = point->proved = status == VES_OK && verdict.status == VES_OK;
-    if (status == VES_OK) ves_asker_record(&asker, point->x, &verdict, false, NAN, *good);
+    point->proved = status == VES_OK && verdict.status == VES_OK;
+    if (status == VES_OK) ves_asker_record(&asker, point->x, &verdict, false, NAN, point->proved);
     asker.failed = 0; /* refused, not failed */
     ves_asker_flush(&asker);
     ves_asker_destroy(&asker);
-    if (status != VES_OK || *good) return status;
-    session->refused++;
-    int kind = (int)verdict.status;
-    bool known = kind > 0 && kind < VES_STATUS_KINDS && session->refusal[kind];
-    if (kind > 0 && kind < VES_STATUS_KINDS) session->refusal[kind] = true;
-    if (!known)
-        ves_session_note(session, "a best was refused by its proof: %s", ves_status_text(verdict.status));
+    if (status == VES_INTERRUPTED) *proof = VES_PROOF_STOPPED;
+    if (status != VES_OK) return status == VES_INTERRUPTED ? VES_OK : status;
+    if (point->proved)
+        *proof = VES_PROOF_PASSED;
+    else
+        refuse(session, point, verdict.status);
     return VES_OK;
 }
 
@@ -159,17 +200,17 @@ static int best_of(const ves_session *session, ves_point *const *point, int coun
 }
 
 /* Best first, so that all but one of the proofs are saved when the first passes. */
-ves_status ves_session_offer(ves_session *session, ves_point *const *point, int count, bool *refused)
+ves_status ves_session_offer(ves_session *session, ves_point *const *point, int count, long most,
+                             bool *refused)
 {
     for (int k = 0; k < count; k++) refused[k] = false;
     for (int k; (k = best_of(session, point, count, refused)) >= 0;) {
         if (!ves_session_better(session, &point[k]->verdict, &session->best.verdict)) break;
-        bool good;
-        VES_TRY(ves_session_prove(session, point[k], &good));
-        if (good) {
-            ves_point_copy(&session->best, point[k], session->n, session->m);
-            break;
-        }
+        if (ves_session_costs(session, point[k]) && most-- <= 0) break;
+        ves_proof proof;
+        VES_TRY(ves_session_prove(session, point[k], &proof));
+        if (proof == VES_PROOF_PASSED) ves_point_copy(&session->best, point[k], session->n, session->m);
+        if (proof != VES_PROOF_REFUSED) break;
         refused[k] = true;
     }
     return VES_OK;

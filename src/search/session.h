@@ -15,6 +15,9 @@
 
 enum { VES_NOTES = 64, VES_STATUS_KINDS = 64 };
 
+/* Proofs: of one round of offers; of an annealing, or of the end; how many refused points are remembered. */
+enum { VES_PROOFS_ROUND = 3, VES_PROOFS = 16, VES_PROOFS_KNOWN = 64 };
+
 typedef struct ves_session ves_session;
 
 /* An end of a stage: where a chain or a polish stopped. The next stage starts from the ends of the one
@@ -40,6 +43,7 @@ typedef struct ves_journal {
 typedef struct ves_asker {
     ves_session *session;
     int member, worker;
+    bool insists; /* asks even after a stop: an interrupted search still proves its best */
     long evaluations, gradients, failed; /* not yet merged */
     ves_status fault;                    /* negative: the search must end */
     ves_journal journal;
@@ -62,7 +66,8 @@ struct ves_session {
     ves_stage stage[VES_STAGES];
     bool grows[VES_STAGES]; /* the stage has no budget of its own */
     const char *stage_name;
-    long budget; /* of the whole search */
+    long budget;   /* of the whole search */
+    long reserved; /* of it, for the proofs at the end */
     double temperature, acceptance;
 
     long evaluations, gradients, failed, refused;
@@ -71,6 +76,7 @@ struct ves_session {
     double price;     /* objective per unit of violation: what a violation within the tolerance may not buy */
     double spread;    /* of the objective, from the warm-up; 0: unknown */
     bool refusal[VES_STATUS_KINDS];
+    double *known; /* [VES_PROOFS_KNOWN][n] the points that were refused last, in the unit box */
 
     ves_point start, best; /* best: the proved one; failed while there is none */
     int ends;
@@ -89,11 +95,14 @@ void ves_session_destroy(ves_session *session);
 
 /* True once the search must end: fault, interrupt. */
 bool ves_session_over(ves_session *session);
-long ves_session_left(const ves_session *session); /* evaluations */
+long ves_session_left(const ves_session *session); /* evaluations, but for those kept for the end */
+bool ves_session_equality(const ves_session *session, int j); /* is constraint j one */
 
 /* The order of all searches, with a price on violations that are within the tolerance but more than rounding:
  * else the best would always be the one that uses the tolerance up. */
 bool ves_session_better(const ves_session *session, const ves_verdict *a, const ves_verdict *b);
+bool ves_session_better_at(const ves_session *session, double price, const ves_verdict *a,
+                           const ves_verdict *b);
 void ves_session_sort(const ves_session *session, ves_end *end, int count);
 
 /* Adds a sentence (printf format); too many: dropped. Out of memory is a fault of the session. */
@@ -102,9 +111,15 @@ void ves_session_stop(ves_session *session, const char *format, ...) __attribute
 void ves_session_progress(ves_session *session);
 
 /* Offers members' bests to the population: the best of them that is better than the population's and passes
- * the proof becomes the population's best. refused[k] tells which did not pass. */
-ves_status ves_session_offer(ves_session *session, ves_point *const *point, int count, bool *refused);
-ves_status ves_session_prove(ves_session *session, ves_point *point, bool *good);
+ * the proof becomes the population's best. At most `most` proofs, best first; refused[k] tells which did not
+ * pass. */
+ves_status ves_session_offer(ves_session *session, ves_point *const *point, int count, long most,
+                             bool *refused);
+
+/* Asks for the dear checks; a point next to one that was refused is refused without asking. */
+typedef enum ves_proof { VES_PROOF_PASSED, VES_PROOF_REFUSED, VES_PROOF_STOPPED } ves_proof;
+bool ves_session_costs(const ves_session *session, const ves_point *point); /* would it be asked */
+ves_status ves_session_prove(ves_session *session, ves_point *point, ves_proof *proof);
 
 /* Takes `room` ends for the next stage; NULL when out of memory. */
 ves_end *ves_session_ends(ves_session *session, int room);

@@ -438,7 +438,7 @@ static void plans_destroy(study *s)
 }
 
 ves_status ves_run_create(const ves_problem *problem, const ves_run_options *options,
-                         const ves_run_hooks *hooks, ves_run **out, ves_diag *diag)
+                          const ves_run_hooks *hooks, ves_run **out, ves_diag *diag)
 {
     static const ves_run_hooks deaf = {0};
     *out = NULL;

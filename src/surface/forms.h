@@ -7,6 +7,7 @@
 #define VES_SURFACE_FORMS_H
 
 #include "surface/tile.h"
+#include "vesica/status.h"
 
 enum { VES_FORM_NX, VES_FORM_NY, VES_FORM_NZ, VES_FORM_J, VES_FORM_H, VES_FORM_K, VES_FORMS };
 
@@ -14,13 +15,18 @@ typedef struct ves_form_planes {
     _Alignas(64) double at[VES_FORMS][VES_TILE_STRIDE];
 } ves_form_planes;
 
-/* Fills normal and J; H and K too when the second derivatives are in the tile. Returns the least J^2 over the
- * largest (E + G)^2 seen: near 0 the surface has a point without a tangent plane. */
-double ves_forms_eval(const ves_tile *tile, const ves_tile_planes *field, double side, ves_form_planes *form);
+/* Fills normal and J; with `curvature` H and K too (the tile must then have the second derivatives).
+ * VES_DEGENERATE when some node has no tangent plane: |Xu x Xv| below 1e-12 (|Xu|^2 + |Xv|^2), where rounding
+ * decides the direction of the normal, or no number. */
+ves_status ves_forms_eval(const ves_tile *tile, const ves_tile_planes *field, double side, bool curvature,
+                          ves_form_planes *form);
 
-/* Overwrites d J / d (first and second derivatives), given d J / d forms (normal, J, H, K). no_normal: J does
- * not depend on the normal, whose planes are then not read. */
-void ves_forms_gradient(const ves_tile *tile, const ves_tile_planes *field, double side, bool no_normal,
+/* Overwrites d J / d (first and, with `curvature`, second derivatives), given d J / d forms (normal, J, H,
+ * K). */
+typedef struct ves_form_flow {
+    bool normal, curvature; /* whether J depends on them; planes of what it does not depend on are not read */
+} ves_form_flow;
+void ves_forms_gradient(const ves_tile *tile, const ves_tile_planes *field, double side, ves_form_flow flow,
                         const ves_form_planes *form_adjoint, ves_tile_planes *field_adjoint);
 
 #endif

@@ -35,9 +35,10 @@ typedef struct ves_datum {
 } ves_datum;
 
 /* (d_uu + a^2 d_vv)^N X = 0 with 2N conditions [Ugail 2011, eqs 4.35, 4.15-4.18]. a: number block index.
- * modes: solved one by one; 0: all up to the data's band limit, at most VES_PATCH_MODES. Modes beyond are all
- * taken at lam = a (modes + 1), the remainder of [Ugail 2011, eqs 4.45-4.52 as corrected in docs/errata.md],
- * so that the end curves are met exactly. */
+ * modes: solved one by one; 0:
+ * all that the data at the start design have above 1e-5 of their largest, and at least VES_PATCH_MODES. Modes
+ * beyond are all taken at lam = a (modes + 1), the remainder of [Ugail 2011, eqs 4.45-4.52 as corrected in
+ * docs/errata.md], so that the end curves are met exactly. */
 ves_status ves_patch_pde(const ves_layout *layout, const ves_datum *datum, int a, int modes,
                          const ves_bound *bound, ves_arena *arena, ves_patch **patch);
 

@@ -37,6 +37,10 @@ typedef struct pde_chart {
     long binding;
 } pde_chart;
 
+/* Spectra of splines fall like n^-4: what lies below this share moves the surface by less than 1e-5 of its
+ * size, near its ends only. */
+static const double SIGNIFICANT = 1e-5;
+
 static int stride(int modes)
 {
     return 1 + 2 * modes;
@@ -458,6 +462,22 @@ static int widest(const ves_datum *datum, int count, const ves_curves *curves)
     return band;
 }
 
+/* The highest mode of the data, at the design that is bound, above SIGNIFICANT of its condition's largest. */
+static int significant(const pde *p)
+{
+    int width = stride(p->band), highest = 0;
+    for (int j = 0; j < p->conditions; j++) {
+        double largest = 0;
+        for (int k = 1; k < width; k++)
+            for (int c = 0; c < 3; c++) largest = fmax(largest, fabs(p->data[(j * 3 + c) * width + k]));
+        for (int k = 1; k < width; k++)
+            for (int c = 0; c < 3; c++)
+                if (fabs(p->data[(j * 3 + c) * width + k]) > SIGNIFICANT * largest && (k + 1) / 2 > highest)
+                    highest = (k + 1) / 2;
+    }
+    return highest;
+}
+
 ves_status ves_patch_pde(const ves_layout *layout, const ves_datum *datum, int a, int modes,
                          const ves_bound *bound, ves_arena *arena, ves_patch **patch)
 {
@@ -478,12 +498,15 @@ ves_status ves_patch_pde(const ves_layout *layout, const ves_datum *datum, int a
                  (datum[j].from >= 0 && ves_curves_varies(bound->curves, datum[j].from));
     }
     p->band = widest(datum, p->conditions, bound->curves);
-    int most = modes > 0 ? modes : VES_PATCH_MODES;
-    p->modes = p->band < most ? p->band : most;
     size_t size = (size_t)(p->conditions * 3 * stride(p->band));
     p->data = ves_arena_doubles(arena, size);
     p->data_adjoint = ves_arena_doubles(arena, size);
     if (!p->data || !p->data_adjoint) return VES_MEMORY;
+    for (int j = 0; j < p->conditions; j++) datum_bind(p, j, bound);
+    int highest = significant(p), most = modes > 0                   ? modes
+                                         : highest > VES_PATCH_MODES ? highest
+                                                                     : VES_PATCH_MODES;
+    p->modes = p->band < most ? p->band : most;
     *made = (ves_patch){
         .ops = &PDE, .periodic = true, .varies = varies, .modes = p->modes, .band = p->band, .state = p};
     *patch = made;

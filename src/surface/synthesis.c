@@ -7,9 +7,17 @@ typedef ves_lanes lanes;
 
 #define HOT static inline __attribute__((always_inline))
 
-static double *table(const ves_synthesis *s, int e)
+enum { FOUR = 4 }; /* rows that share the loads of modes */
+
+static int blocks(const ves_synthesis *s)
 {
-    return s->table + (size_t)(e * (1 + 2 * s->modes) * s->rows);
+    return (s->rows + FOUR - 1) / FOUR;
+}
+
+/* Factors of one row: coefficient k at [FOUR * k]. */
+HOT double *row_table(const ves_synthesis *s, int e, int row)
+{
+    return s->table + (size_t)((e * blocks(s) + row / FOUR) * (1 + 2 * s->modes) * FOUR + row % FOUR);
 }
 
 /* d^e/dv^e turns cos into n^e times cos, -sin, -cos, and sin into n^e times sin, cos, -sin. Both sit in the
@@ -18,12 +26,12 @@ static void fill(const ves_synthesis *s)
 {
     for (int e = 0; e < 3; e++)
         for (int j = 0; j < s->rows; j++) {
-            double *t = table(s, e) + j, v = s->grid->v[j];
+            double *t = row_table(s, e, j), v = s->grid->v[j];
             t[0] = e == 0;
             for (int n = 1; n <= s->modes; n++) {
                 double c = cos(n * v), w = sin(n * v), p = e == 0 ? 1 : e == 1 ? n : (double)n * n;
-                t[(2 * n - 1) * s->rows] = p * (e == 0 ? c : e == 1 ? -w : -c);
-                t[2 * n * s->rows] = p * (e == 0 ? w : e == 1 ? c : -w);
+                t[(2 * n - 1) * FOUR] = p * (e == 0 ? c : e == 1 ? -w : -c);
+                t[2 * n * FOUR] = p * (e == 0 ? w : e == 1 ? c : -w);
             }
         }
 }
@@ -31,7 +39,7 @@ static void fill(const ves_synthesis *s)
 ves_status ves_synthesis_create(const ves_grid *grid, int modes, ves_arena *arena, ves_synthesis *s)
 {
     *s = (ves_synthesis){.grid = grid, .modes = modes, .rows = grid->symmetric ? grid->nv / 4 : grid->nv};
-    s->table = ves_arena_take(arena, (size_t)(3 * (1 + 2 * modes) * s->rows), sizeof(double));
+    s->table = ves_arena_take(arena, (size_t)(3 * (1 + 2 * modes) * blocks(s) * FOUR), sizeof(double));
     if (!s->table) return VES_MEMORY;
     fill(s);
     return VES_OK;
@@ -43,27 +51,27 @@ ves_status ves_synthesis_create(const ves_grid *grid, int modes, ves_arena *aren
 HOT void fold_rows(const ves_synthesis *s, const double *t, bool swapped, const double *mode, double *out,
                    int pair)
 {
-    int nu = ves_padded(s->grid->nu), rows = s->rows;
+    int nu = ves_padded(s->grid->nu);
     lanes ce[4], co[4], se[4], so[4];
     for (int r = 0; r < pair; r++) {
         ce[r] = *(const lanes *)mode * t[r];
         co[r] = se[r] = so[r] = (lanes){0};
     }
-    const double *m = mode + nu, *tn = t + rows;
+    const double *m = mode + nu, *tn = t + FOUR;
     int n = 1;
-    for (; n + 1 <= s->modes; n += 2, m += 4 * nu, tn += 4 * rows) {
+    for (; n + 1 <= s->modes; n += 2, m += 4 * nu, tn += 4 * FOUR) {
         lanes a1 = *(const lanes *)m, b1 = *(const lanes *)(m + nu);
         lanes a2 = *(const lanes *)(m + 2 * nu), b2 = *(const lanes *)(m + 3 * nu);
         for (int r = 0; r < pair; r++) {
             co[r] += a1 * tn[r];
-            so[r] += b1 * tn[rows + r];
-            ce[r] += a2 * tn[2 * rows + r];
-            se[r] += b2 * tn[3 * rows + r];
+            so[r] += b1 * tn[FOUR + r];
+            ce[r] += a2 * tn[2 * FOUR + r];
+            se[r] += b2 * tn[3 * FOUR + r];
         }
     }
     if (n <= s->modes) {
         lanes a1 = *(const lanes *)m, b1 = *(const lanes *)(m + nu);
-        for (int r = 0; r < pair; r++) co[r] += a1 * tn[r], so[r] += b1 * tn[rows + r];
+        for (int r = 0; r < pair; r++) co[r] += a1 * tn[r], so[r] += b1 * tn[FOUR + r];
     }
     for (int r = 0; r < pair; r++) {
         lanes E = swapped ? se[r] : ce[r], O = swapped ? so[r] : co[r];
@@ -76,24 +84,24 @@ HOT void fold_rows(const ves_synthesis *s, const double *t, bool swapped, const 
     }
 }
 
-HOT void fold_field(const ves_synthesis *s, bool swapped, const double *t, const double *mode,
-                    const ves_tile *tile, double *out)
+HOT void fold_field(const ves_synthesis *s, int e, bool swapped, const double *mode, const ves_tile *tile,
+                    double *out)
 {
     int k = 0;
-    for (; k + 4 <= tile->run; k += 4)
-        fold_rows(s, t + tile->first + k, swapped, mode, out + 4 * k * VES_LANES, 4);
-    for (; k < tile->run; k++) fold_rows(s, t + tile->first + k, swapped, mode, out + 4 * k * VES_LANES, 1);
+    for (; k + FOUR <= tile->run; k += FOUR)
+        fold_rows(s, row_table(s, e, tile->first + k), swapped, mode, out + 4 * k * VES_LANES, FOUR);
+    for (; k < tile->run; k++)
+        fold_rows(s, row_table(s, e, tile->first + k), swapped, mode, out + 4 * k * VES_LANES, 1);
 }
 
 /* Any grid. */
-static void plain_field(const ves_synthesis *s, const double *t, const double *mode, const ves_tile *tile,
-                        double *out)
+static void plain_field(const ves_synthesis *s, int e, const double *mode, const ves_tile *tile, double *out)
 {
     int nu = ves_padded(s->grid->nu);
     for (int r = 0; r < tile->rows; r++) {
+        const double *t = row_table(s, e, tile->row[r]);
         lanes sum = {0};
-        for (int k = 0; k < 1 + 2 * s->modes; k++)
-            sum += *(const lanes *)(mode + k * nu) * t[k * s->rows + tile->row[r]];
+        for (int k = 0; k < 1 + 2 * s->modes; k++) sum += *(const lanes *)(mode + k * nu) * t[k * FOUR];
         ((lanes *)out)[r] = sum;
     }
 }
@@ -111,16 +119,15 @@ void ves_synthesis_eval(const ves_synthesis *s, const double *mode, const ves_ti
     for (int f = 0; f < VES_FIELDS; f++) {
         if (!(tile->fields & 1u << f)) continue;
         int e = VES_FIELD_E[f];
-        const double *t = table(s, e);
         for (int c = 0; c < 3; c++) {
             const double *m = mode + offset(s, VES_FIELD_D[f], c, tile);
             double *o = out->at[f * 3 + c];
             if (!s->grid->symmetric)
-                plain_field(s, t, m, tile, o);
+                plain_field(s, e, m, tile, o);
             else if (e == 1)
-                fold_field(s, true, t, m, tile, o);
+                fold_field(s, 1, true, m, tile, o);
             else
-                fold_field(s, false, t, m, tile, o);
+                fold_field(s, e, false, m, tile, o);
         }
     }
 }
@@ -129,7 +136,7 @@ void ves_synthesis_eval(const ves_synthesis *s, const double *mode, const ves_ti
 HOT void unfold_rows(const ves_synthesis *s, const double *t, bool swapped, const double *in, double *mode,
                      int run)
 {
-    int nu = ves_padded(s->grid->nu), rows = s->rows;
+    int nu = ves_padded(s->grid->nu);
     lanes ce[4], co[4], se[4], so[4];
     for (int r = 0; r < run; r++) {
         const lanes *g = (const lanes *)in + 4 * r;
@@ -140,41 +147,42 @@ HOT void unfold_rows(const ves_synthesis *s, const double *t, bool swapped, cons
     }
     for (int r = 0; r < run; r++) *(lanes *)mode += ce[r] * t[r];
     double *m = mode + nu;
-    const double *tn = t + rows;
+    const double *tn = t + FOUR;
     int n = 1;
-    for (; n + 1 <= s->modes; n += 2, m += 4 * nu, tn += 4 * rows) {
+    for (; n + 1 <= s->modes; n += 2, m += 4 * nu, tn += 4 * FOUR) {
         lanes a1 = *(lanes *)m, b1 = *(lanes *)(m + nu), a2 = *(lanes *)(m + 2 * nu),
               b2 = *(lanes *)(m + 3 * nu);
         for (int r = 0; r < run; r++) {
-            a1 += co[r] * tn[r], b1 += so[r] * tn[rows + r];
-            a2 += ce[r] * tn[2 * rows + r], b2 += se[r] * tn[3 * rows + r];
+            a1 += co[r] * tn[r], b1 += so[r] * tn[FOUR + r];
+            a2 += ce[r] * tn[2 * FOUR + r], b2 += se[r] * tn[3 * FOUR + r];
         }
         *(lanes *)m = a1, *(lanes *)(m + nu) = b1, *(lanes *)(m + 2 * nu) = a2, *(lanes *)(m + 3 * nu) = b2;
     }
     if (n <= s->modes) {
         lanes a1 = *(lanes *)m, b1 = *(lanes *)(m + nu);
-        for (int r = 0; r < run; r++) a1 += co[r] * tn[r], b1 += so[r] * tn[rows + r];
+        for (int r = 0; r < run; r++) a1 += co[r] * tn[r], b1 += so[r] * tn[FOUR + r];
         *(lanes *)m = a1, *(lanes *)(m + nu) = b1;
     }
 }
 
-HOT void unfold_field(const ves_synthesis *s, bool swapped, const double *t, const double *in,
-                      const ves_tile *tile, double *mode)
+HOT void unfold_field(const ves_synthesis *s, int e, bool swapped, const double *in, const ves_tile *tile,
+                      double *mode)
 {
     int k = 0;
-    for (; k + 4 <= tile->run; k += 4)
-        unfold_rows(s, t + tile->first + k, swapped, in + 4 * k * VES_LANES, mode, 4);
-    for (; k < tile->run; k++) unfold_rows(s, t + tile->first + k, swapped, in + 4 * k * VES_LANES, mode, 1);
+    for (; k + FOUR <= tile->run; k += FOUR)
+        unfold_rows(s, row_table(s, e, tile->first + k), swapped, in + 4 * k * VES_LANES, mode, FOUR);
+    for (; k < tile->run; k++)
+        unfold_rows(s, row_table(s, e, tile->first + k), swapped, in + 4 * k * VES_LANES, mode, 1);
 }
 
-static void plain_transpose(const ves_synthesis *s, const double *t, const double *in, const ves_tile *tile,
+static void plain_transpose(const ves_synthesis *s, int e, const double *in, const ves_tile *tile,
                             double *mode)
 {
     int nu = ves_padded(s->grid->nu);
-    for (int k = 0; k < 1 + 2 * s->modes; k++) {
-        lanes sum = *(lanes *)(mode + k * nu);
-        for (int r = 0; r < tile->rows; r++) sum += ((const lanes *)in)[r] * t[k * s->rows + tile->row[r]];
-        *(lanes *)(mode + k * nu) = sum;
+    for (int r = 0; r < tile->rows; r++) {
+        const double *t = row_table(s, e, tile->row[r]);
+        for (int k = 0; k < 1 + 2 * s->modes; k++)
+            *(lanes *)(mode + k * nu) += ((const lanes *)in)[r] * t[k * FOUR];
     }
 }
 
@@ -184,16 +192,15 @@ void ves_synthesis_gradient(const ves_synthesis *s, const ves_tile *tile, const 
     for (int f = 0; f < VES_FIELDS; f++) {
         if (!(tile->fields & 1u << f)) continue;
         int e = VES_FIELD_E[f];
-        const double *t = table(s, e);
         for (int c = 0; c < 3; c++) {
             double *m = mode_adjoint + offset(s, VES_FIELD_D[f], c, tile);
             const double *in = adjoint->at[f * 3 + c];
             if (!s->grid->symmetric)
-                plain_transpose(s, t, in, tile, m);
+                plain_transpose(s, e, in, tile, m);
             else if (e == 1)
-                unfold_field(s, true, t, in, tile, m);
+                unfold_field(s, 1, true, in, tile, m);
             else
-                unfold_field(s, false, t, in, tile, m);
+                unfold_field(s, e, false, in, tile, m);
         }
     }
 }

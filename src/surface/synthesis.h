@@ -13,7 +13,8 @@ typedef struct ves_synthesis {
     const ves_grid *grid;
     int modes;
     int rows;      /* v nodes in the tables: a quarter of them on a symmetric grid */
-    double *table; /* [e][k][rows], e = 0..2, k = 0 .. 2 modes: the factor of coefficient k in d^e/dv^e */
+    double *table; /* [e][block of 4 rows][k][4], e = 0..2, k = 0 .. 2 modes: the factor of coefficient k in
+                    * d^e/dv^e, in the order in which the loops read it */
 } ves_synthesis;
 
 ves_status ves_synthesis_create(const ves_grid *grid, int modes, ves_arena *arena, ves_synthesis *synthesis);

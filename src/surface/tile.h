@@ -7,6 +7,11 @@
 #ifndef VES_SURFACE_TILE_H
 #define VES_SURFACE_TILE_H
 
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+#include <math.h>
+
 #include "surface/grid.h"
 
 enum { VES_FIELD_X, VES_FIELD_U, VES_FIELD_V, VES_FIELD_UU, VES_FIELD_UV, VES_FIELD_VV, VES_FIELDS };
@@ -24,6 +29,30 @@ static inline ves_lanes ves_lanes_at(const double *from)
     ves_lanes x;
     __builtin_memcpy(&x, from, sizeof x);
     return x;
+}
+
+static inline void ves_lanes_put(double *to, ves_lanes x)
+{
+    __builtin_memcpy(to, &x, sizeof x);
+}
+
+/* 1 / sqrt(x) to about one unit in the last place; not a number where x is 0. With AVX-512 from the 14-bit
+ * estimate by two steps of Newton: a square root and a division of whole registers cost five times as much.
+ */
+static inline ves_lanes ves_lanes_rsqrt(ves_lanes x)
+{
+#ifdef __AVX512F__
+    ves_lanes r = (ves_lanes)_mm512_rsqrt14_pd((__m512d)x), half = 0.5 * x;
+    for (int k = 0; k < 2; k++) {
+        ves_lanes miss = 0.5 - half * r * r; /* (1 - x r^2) / 2 */
+        r += r * miss;
+    }
+    return r;
+#else
+    ves_lanes r;
+    for (int k = 0; k < VES_LANES; k++) r[k] = 1 / sqrt(x[k]);
+    return r;
+#endif
 }
 
 static inline ves_lanes ves_lanes_min(ves_lanes a, ves_lanes b)

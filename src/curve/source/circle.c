@@ -13,16 +13,16 @@ static const ves_key keys[] = {
     {.name = "axis",
      .kind = VES_VECTOR,
      .unit = "1",
-     .about = "normal of its plane, [0, 0, 1] unless given; v = 0 lies on the first of x, y, z that the "
-              "plane contains"},
+     .about =
+         "normal of its plane, [0, 0, 1] unless given; v = 0 lies on the first of x, y, z that the "
+         "plane contains (of a varying axis: with only its largest constant component, or as it starts)"},
     {.name = "centre", .kind = VES_VECTOR, .about = "centre, the origin unless given"},
     {.name = NULL},
 };
 
 static ves_status prepare(const ves_curve_input *input, ves_arena *arena, void **state, ves_diag *diag)
 {
-    (void)arena, (void)state;
-    return ves_ring_check(input, ring, diag);
+    return ves_ring_prepare(input, ring, arena, state, diag);
 }
 
 static int modes(const ves_curve_input *input)

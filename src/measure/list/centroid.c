@@ -20,6 +20,11 @@ static bool closes(const ves_args *args)
     return args->arg[OF].value == OF_VOLUME;
 }
 
+static unsigned needs(const ves_args *args)
+{
+    return VES_X | VES_AREA | (closes(args) ? VES_NORMAL : 0);
+}
+
 /* Area and first moment of the surface, in the members of ves_flux. */
 static void surface_add(const ves_samples *s, const double d[3], ves_flux *sum)
 {
@@ -92,5 +97,6 @@ const ves_measure ves_measure_centroid = {
     .cap = VES_X | VES_XV,
     .closes = closes,
     .keys = KEYS,
+    .needs = needs,
     .eval = eval,
     .gradient = gradient};

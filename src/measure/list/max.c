@@ -21,6 +21,12 @@ static const ves_key KEYS[] = {
          "which is smooth for p >= 2"},
     {.name = NULL}};
 
+/* The area weighs power means alone. */
+static unsigned needs(const ves_args *args)
+{
+    return ves_pointwise_needs(args) | (args->arg[SMOOTH].given ? VES_AREA : 0);
+}
+
 /* room: the formula's scratch, then sample and node of the largest, then all values. */
 static size_t room(const ves_measure_input *input)
 {
@@ -60,11 +66,12 @@ static ves_status eval(const ves_measure_input *input, double *value)
         *value = top.value;
         return VES_OK;
     }
+    ves_pointwise f = ves_pointwise_init(input);
     for (int i = 0; i < input->samples; i++) {
         const ves_samples *s = input->sample[i];
         if (s->site != VES_SITE_SURFACE) continue;
         for (int n = 0; n < s->count; n++) {
-            *all = ves_pointwise_eval(input, s, n);
+            *all = ves_pointwise_eval(&f, s, n);
             if (!isfinite(*all++)) return VES_NO_NUMBER;
         }
     }
@@ -76,13 +83,14 @@ static void smooth_gradient(const ves_measure_input *input, double p, double see
                             const ves_adjoint *const *adjoint, double *number_adjoint)
 {
     ves_power power = gather(input, p);
+    ves_pointwise f = ves_pointwise_init(input);
     const double *value = place_of(input) + 2;
     for (int i = 0; i < input->samples; i++) {
         const ves_samples *s = input->sample[i];
         if (s->site != VES_SITE_SURFACE) continue;
         for (int n = 0; n < s->count; n++) {
             ves_power_slope g = ves_power_gradient(&power, *value++, s->dA[n]);
-            if (g.x > 0) ves_pointwise_gradient(input, s, n, seed * g.x, adjoint[i], number_adjoint);
+            if (g.x > 0) ves_pointwise_gradient(&f, s, n, seed * g.x, adjoint[i], number_adjoint);
             if (adjoint[i]->dA) adjoint[i]->dA[n] += seed * g.w;
         }
     }
@@ -94,11 +102,12 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
 {
     double p = ves_argument_number(input, SMOOTH);
     const double *place = place_of(input);
+    ves_pointwise f = ves_pointwise_init(input);
     int i = (int)place[0];
     if (p > 0)
         smooth_gradient(input, p, seed, adjoint, number_adjoint);
     else
-        ves_pointwise_gradient(input, input->sample[i], (int)place[1], seed, adjoint[i], number_adjoint);
+        ves_pointwise_gradient(&f, input->sample[i], (int)place[1], seed, adjoint[i], number_adjoint);
 }
 
 const ves_measure ves_measure_max = {.name = "max",
@@ -107,6 +116,7 @@ const ves_measure ves_measure_max = {.name = "max",
                                      .degree = VES_NO_DEGREE,
                                      .surface = VES_POINTWISE_SURFACE,
                                      .keys = KEYS,
+                                     .needs = needs,
                                      .room = room,
                                      .eval = eval,
                                      .gradient = gradient};

@@ -28,16 +28,18 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
                      double *number_adjoint)
 {
     const double *place = input->room + ves_pointwise_scratch(input);
+    ves_pointwise p = ves_pointwise_init(input);
     int i = (int)place[0];
-    ves_pointwise_gradient(input, input->sample[i], (int)place[1], seed, adjoint[i], number_adjoint);
+    ves_pointwise_gradient(&p, input->sample[i], (int)place[1], seed, adjoint[i], number_adjoint);
 }
 
 const ves_measure ves_measure_min = {.name = "min",
                                      .about = "least value of a formula over the surface",
                                      .unit = NULL,
                                      .degree = VES_NO_DEGREE,
-                                     .surface = VES_POINTWISE_SURFACE,
+                                     .surface = VES_X | VES_CURVATURE,
                                      .keys = KEYS,
+                                     .needs = ves_pointwise_needs,
                                      .room = room,
                                      .eval = eval,
                                      .gradient = gradient};

@@ -5,7 +5,7 @@
 #include "search/point.h"
 
 /* Steps without a scale: one to three coordinates, each by a normal step whose width is drawn log-uniformly
- * over seven decades below the whole range. Nothing to adapt: at any temperature some of the widths fit.
+ * over three decades below the whole range. Nothing to adapt: at any temperature some of the widths fit.
  * Heavy tails as in the visiting distribution of generalised annealing (Tsallis and Stariolo 1996). test   as
  * gaussian */
 
@@ -36,7 +36,7 @@ static void propose(int n, double *state, ves_random *random, double *u)
 
 const ves_proposal ves_proposal_heavy = {
     .name = "heavy",
-    .about = "one to three coordinates by widths over seven decades",
+    .about = "one to three coordinates by widths over three decades",
     .room = room,
     .init = init,
     .propose = propose,

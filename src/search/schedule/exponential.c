@@ -21,7 +21,7 @@ static void init(const ves_anneal *options, double c0, int n, long per_chain, ve
     long trials = clamped((double)budget / LEAST_TEMPERATURES, 1, TRIALS_PER_VARIABLE * (long)n);
     double fall = log(options->c_end); /* <= 0 */
     double s = options->s;
-    if (isnan(s)) {
+    if (s == 0) {
         double steps = (double)(budget / trials) - 1;
         s = steps > 0 ? 1 + fall / steps : 0;
         s = s < 1e-3 ? 1e-3 : s > 1 - 1e-12 ? 1 - 1e-12 : s;

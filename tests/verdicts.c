@@ -1,0 +1,322 @@
+/* Verdicts: what the plan says of candidates that are odd in some way, and of the grids that it chooses. */
+#include <criterion/criterion.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "measure/registry.h"
+#include "problem/problem.h"
+#include "vesica/plan.h"
+
+typedef struct bed {
+    ves_problem *problem;
+    ves_plan *plan;
+    ves_diag *diag;
+} bed;
+
+static bed bed_make(const char *text, const ves_measure *const *plugin)
+{
+    bed b = {.diag = ves_diag_create()};
+    ves_read_options options = {.plugin = plugin};
+    char message[2000] = "";
+    ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), &options, &b.problem, b.diag);
+    if (status == VES_OK) status = ves_plan_create(b.problem, &(ves_plan_options){{0, 0}}, &b.plan, b.diag);
+    if (ves_diag_count(b.diag)) ves_diag_text(b.diag, 0, message, sizeof message);
+    cr_assert_eq(status, VES_OK, "%s", message);
+    return b;
+}
+
+static void bed_clear(bed *b)
+{
+    ves_plan_destroy(b->plan);
+    ves_problem_destroy(b->problem);
+    ves_diag_destroy(b->diag);
+}
+
+static ves_verdict judged(const bed *b, const double *x, unsigned want, double cutoff, double *arrays)
+{
+    ves_verdict verdict = {
+        .value = 55, .violation = 123, .constraint = arrays, .gradient = arrays + 8, .jacobian = arrays + 16};
+    ves_ask ask = {.x = x, .cutoff = cutoff, .want = want};
+    cr_assert_eq(ves_plan_evaluate(b->plan, &ask, &verdict), VES_OK);
+    return verdict;
+}
+
+#define CONE(head, rest)                                                                                     \
+    "vesica: 1\n" head "curves: {p: {circle: {radius: 1}}, q: {circle: {radius: r, centre: [0, 0, 1.5]}}}\n" \
+    "patches: {wall: {operator: {power: 1, a: 1.1}, conditions: [{u: 0, position: p}, {u: 1, position: "     \
+    "q}]}}\n" rest
+
+/* --- measures of a plugin
+ * ---------------------------------------------------------------------------------------------------- */
+
+/* The integral of |Xuu|^2 + Xuv . Xvv: area and all second derivatives, but no curvature. */
+static ves_status stretch_eval(const ves_measure_input *in, double *value)
+{
+    const ves_samples *s = in->sample[0];
+    *value = 0;
+    for (int k = 0; k < s->count; k++)
+        for (int c = 0; c < 3; c++)
+            *value += (s->Xuu[c][k] * s->Xuu[c][k] + s->Xuv[c][k] * s->Xvv[c][k]) * s->dA[k];
+    return VES_OK;
+}
+
+static void stretch_gradient(const ves_measure_input *in, double seed, const ves_adjoint *const *adjoint,
+                             double *number)
+{
+    (void)number;
+    const ves_samples *s = in->sample[0];
+    for (int k = 0; k < s->count; k++)
+        for (int c = 0; c < 3; c++) {
+            adjoint[0]->Xuu[c][k] += seed * 2 * s->Xuu[c][k] * s->dA[k];
+            adjoint[0]->Xuv[c][k] += seed * s->Xvv[c][k] * s->dA[k];
+            adjoint[0]->Xvv[c][k] += seed * s->Xuv[c][k] * s->dA[k];
+            adjoint[0]->dA[k] += seed * (s->Xuu[c][k] * s->Xuu[c][k] + s->Xuv[c][k] * s->Xvv[c][k]);
+        }
+}
+
+/* Counts its calls: a dear measure that a cheap constraint should spare. */
+static int dear_calls;
+
+static ves_status dear_eval(const ves_measure_input *in, double *value)
+{
+    (void)in;
+    dear_calls++;
+    *value = 1;
+    return VES_OK;
+}
+
+static ves_status odd_eval(const ves_measure_input *in, double *value)
+{
+    (void)in, (void)value;
+    return (ves_status)99;
+}
+
+static int prepared, released;
+
+static ves_status holder_prepare(const ves_measure_input *in, void **state)
+{
+    static const double three = 3;
+    prepared += 1 + in->level;
+    *state = (void *)&three;
+    return VES_OK;
+}
+
+static void holder_release(void *state)
+{
+    released += state != NULL;
+}
+
+static ves_status holder_eval(const ves_measure_input *in, double *value)
+{
+    *value = *(const double *)in->state;
+    return VES_OK;
+}
+
+static const ves_measure STRETCH = {.name = "stretch",
+                                    .about = "test",
+                                    .unit = "1",
+                                    .degree = VES_NO_DEGREE,
+                                    .surface = VES_AREA | VES_XUU | VES_XUV | VES_XVV,
+                                    .eval = stretch_eval,
+                                    .gradient = stretch_gradient};
+static const ves_measure DEAR = {
+    .name = "dear", .about = "test", .unit = "1", .cost = 1, .surface = VES_X, .eval = dear_eval};
+static const ves_measure ODD = {
+    .name = "odd", .about = "test", .unit = "1", .surface = VES_X, .eval = odd_eval};
+static const ves_measure HOLDER = {.name = "holder",
+                                   .about = "test",
+                                   .unit = "1",
+                                   .surface = VES_X,
+                                   .prepare = holder_prepare,
+                                   .release = holder_release,
+                                   .eval = holder_eval};
+static const ves_measure *const PLUGIN[] = {&STRETCH, &DEAR, &ODD, &HOLDER, NULL};
+
+/* Fourth-order differences, as in plan.c: 1e-7. */
+Test(verdicts, second_derivatives_without_curvature_have_the_right_gradient)
+{
+    bed b = bed_make(
+        CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: stretch\n"), PLUGIN);
+    double x = 1.4, h = 1e-3, arrays[24], side[4];
+    ves_verdict verdict = judged(&b, &x, VES_WANT_GRADIENT, HUGE_VAL, arrays);
+    double got = verdict.gradient[0];
+    for (int k = 0; k < 4; k++) {
+        double at = x + (k < 2 ? k - 2 : k - 1) * h;
+        side[k] = judged(&b, &at, VES_WANT_VALUE, HUGE_VAL, arrays).value;
+    }
+    double want = (side[0] - 8 * side[1] + 8 * side[2] - side[3]) / (12 * h);
+    cr_expect(fabs(got - want) < 1e-7 * (1 + fabs(want)), "got %.10g, differences %.10g", got, want);
+    bed_clear(&b);
+}
+
+Test(verdicts, a_cheap_constraint_spares_the_dear_measure)
+{
+    bed b = bed_make(CONE("variables: {r: [0.3, 1.4, 2]}\n", "minimize: dear\nconstraints: [area <= 5]\n"),
+                     PLUGIN);
+    double x = 1.4, arrays[24];
+    dear_calls = 0;
+    ves_verdict verdict = judged(&b, &x, VES_WANT_VALUE, 1e-3, arrays);
+    cr_expect_eq(verdict.status, VES_CUT);
+    cr_expect_eq(dear_calls, 0);
+    cr_expect(verdict.violation > 0.5 && verdict.violation < 2, "the violation so far: %g",
+              verdict.violation);
+    cr_expect(isnan(verdict.value));
+    judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays);
+    cr_expect_eq(dear_calls, 1);
+    bed_clear(&b);
+}
+
+Test(verdicts, a_foreign_status_is_no_number)
+{
+    bed b = bed_make(CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: odd\n"),
+                     PLUGIN);
+    double x = 1.4, arrays[24];
+    cr_expect_eq(judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_NO_NUMBER);
+    bed_clear(&b);
+}
+
+Test(verdicts, a_measure_may_hold_a_state_for_each_plan_and_level)
+{
+    prepared = released = 0;
+    bed b = bed_make(
+        CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: holder\n"), PLUGIN);
+    double x = 1.4, arrays[24];
+    cr_expect_eq(judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays).value, 3);
+    cr_expect_eq(prepared, 1 + 2);
+    bed_clear(&b);
+    cr_expect_eq(released, 2);
+}
+
+/* --- verdicts
+ * ------------------------------------------------------------------------------------------------------------------
+ */
+
+/* (area - A0)^2 is 0 at its best: the two grids agree in the area, and that is what counts. */
+Test(verdicts, an_objective_that_vanishes_can_be_proved)
+{
+    bed b = bed_make(
+        CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: (area - 13)^2\n"),
+        NULL);
+    double arrays[24], low = 0.3, high = 2;
+    for (int k = 0; k < 60; k++) { /* the root, by bisection on the sign of the slope */
+        double x = (low + high) / 2;
+        judged(&b, &x, VES_WANT_GRADIENT, HUGE_VAL, arrays);
+        if (arrays[8] < 0)
+            low = x;
+        else
+            high = x;
+    }
+    ves_verdict verdict = judged(&b, &low, VES_WANT_PROOF | VES_WANT_GRADIENT, HUGE_VAL, arrays);
+    cr_expect_eq(verdict.status, VES_OK, "%s", ves_status_text(verdict.status));
+    cr_expect(verdict.value < 1e-20 && fabs(verdict.gradient[0]) < 1e-8, "a proof may ask for gradients too");
+    bed_clear(&b);
+}
+
+Test(verdicts, no_number_anywhere_is_noticed)
+{
+    bed b = bed_make("vesica: 1\nvariables: {b: [-1, -0.5, 1]}\nquadrature: {u: 16, v: 16}\n"
+                     "patches: {w: {surface: {formula: [\"v\", \"u\", \"sqrt(u - b)\"]}, periodic: "
+                     "false}}\nminimize: depth + area\n",
+                     NULL);
+    double arrays[24], good = -0.5, half = 0.5, all = 2;
+    cr_expect_eq(judged(&b, &good, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_OK);
+    cr_expect_eq(judged(&b, &half, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_DEGENERATE);
+    cr_expect_eq(judged(&b, &all, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_DEGENERATE);
+    bed_clear(&b);
+}
+
+Test(verdicts, a_capped_shape_may_not_turn_inside_out)
+{
+    bed b = bed_make(
+        "vesica: 1\nvariables: {h: [-3, 1, 3]}\ncurves: {p: {circle: {radius: 1}}, q: {circle: {radius: 1, "
+        "centre: [0, 0, h]}}}\n"
+        "patches: {w: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: p}, {u: 1, position: q}]}}\n"
+        "shape: {closed: true, caps: [w.u0, w.u1]}\nminimize: volume\n",
+        NULL);
+    double arrays[24], out = 1, in = -1;
+    cr_expect_eq(judged(&b, &out, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_OK);
+    cr_expect_eq(judged(&b, &in, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_INVERTED);
+    bed_clear(&b);
+}
+
+Test(verdicts, a_smoothing_parameter_below_zero_is_outside)
+{
+    bed b = bed_make("vesica: 1\nvariables: {b: [-9, 1, 9]}\ncurves: {p: {circle: {radius: 1}}, q: {circle: "
+                     "{radius: 1, centre: [0, 0, 1]}}}\n"
+                     "patches: {w: {operator: {power: 1, a: \"b + 0\"}, conditions: [{u: 0, position: p}, "
+                     "{u: 1, position: q}]}}\nminimize: area\n",
+                     NULL);
+    double arrays[24], x = -8;
+    cr_expect_eq(judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_OUTSIDE);
+    bed_clear(&b);
+}
+
+/* The sides of a constraint stay those of the scaled shape after a gradient. */
+Test(verdicts, constraints_are_told_on_the_scaled_shape)
+{
+    bed b = bed_make(CONE("variables: {r: [0.3, 1.4, 2]}\nscale: {equation: area == 5}\n",
+                          "minimize: bending\nconstraints: [area <= 6]\n"),
+                     NULL);
+    double x = 1.4, arrays[24], left, right, violation;
+    judged(&b, &x, VES_WANT_GRADIENT, HUGE_VAL, arrays);
+    ves_plan_constraint(b.plan, 0, &left, &right, &violation);
+    cr_expect(fabs(left - 5) < 1e-12 && right == 6 && violation == 0, "%.15g", left);
+    bed_clear(&b);
+}
+
+Test(verdicts, levels_that_are_not_there_are_refused)
+{
+    bed b = bed_make(CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: area\n"),
+                     NULL);
+    double x = 1.4, value[2];
+    for (int level = -1; level < 4; level += 3) {
+        ves_verdict verdict = {0};
+        ves_ask ask = {.x = &x, .level = level, .cutoff = HUGE_VAL};
+        cr_expect_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_RANGE);
+        cr_expect_eq(ves_plan_measure(b.plan, &x, level, value), VES_RANGE);
+    }
+    bed_clear(&b);
+}
+
+/* --- grids
+ * ---------------------------------------------------------------------------------------------------------------------
+ */
+
+/* Sixty waves seen by sixteen nodes look slow: the grid must be able to see them before it may be content. */
+Test(verdicts, the_chosen_grid_sees_the_modes)
+{
+    bed b = bed_make("vesica: 1\ncurves: {p: {formula: [\"(1 + 0.02*cos(60*v))*cos(v)\", \"(1 + "
+                     "0.02*cos(60*v))*sin(v)\", \"0\"]}, q: {circle: {radius: 1, centre: [0, 0, 1]}}}\n"
+                     "patches: {w: {operator: {power: 1, a: 0.1}, conditions: [{u: 0, position: p}, {u: 1, "
+                     "position: q}]}}\nexpect: [area > 0]\n",
+                     NULL);
+    int grid[2];
+    double value[2][1], change;
+    ves_plan_grid(b.plan, 0, grid);
+    cr_expect_geq(grid[1], 2 * 61);
+    cr_expect_eq(ves_plan_patch(b.plan, 0).modes, 61, "all modes of the data are solved");
+    for (int level = 0; level < 2; level++)
+        cr_assert_eq(ves_plan_measure(b.plan, NULL, level, value[level]), VES_OK);
+    cr_expect(fabs(value[0][0] - value[1][0]) < 1e-8 * value[1][0], "%.12g %.12g", value[0][0], value[1][0]);
+    cr_assert_eq(ves_plan_quadrature(b.problem, grid, &change, b.diag), VES_OK);
+    cr_expect(change < 1e-6, "%g",
+              change); /* the waves' square roots have endless spectra: the largest grid */
+    bed_clear(&b);
+}
+
+Test(verdicts, a_start_that_cannot_be_measured_does_not_choose_the_grid)
+{
+    bed b = bed_make(
+        "vesica: 1\nvariables: {h: [0, 0, 2]}\ncurves: {p: {formula: [\"(1 + 0.1*cos(11*v))*cos(v)\", \"(1 + "
+        "0.1*cos(11*v))*sin(v)\", \"0\"]}, q: {like: p, apply: [{translate: [0, 0, h]}]}}\n"
+        "patches: {w: {operator: {power: 1, a: 1}, conditions: [{u: 0, position: p}, {u: 1, position: "
+        "q}]}}\nminimize: bending\n",
+        NULL);
+    int grid[2];
+    double change, x = 1, arrays[24];
+    cr_assert_eq(ves_plan_quadrature(b.problem, grid, &change, b.diag), VES_OK);
+    cr_expect(grid[1] >= 32 && change <= 1e-9, "%d x %d, %g", grid[0], grid[1], change);
+    cr_expect_eq(judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_OK);
+    bed_clear(&b);
+}
