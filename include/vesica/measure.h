@@ -114,9 +114,11 @@ typedef struct ves_measure {
     const char *about; /* one line */
     const char *unit;  /* dimension: "m^2"; "1". Files without units ignore it. Of built-in measures alone:
                           NULL is  that of the POINTWISE key `of`, and a leading * multiplies that: "*m^2" */
-    int degree; /* of homogeneity: scaling the shape by s scales the measure by s^degree (for exact scale:).
-                   VES_NO_DEGREE: it does not scale so, and cannot be used in scale: */
-    int cost;   /* 0: like the samples themselves; 1: dear (solves systems): measured last */
+    int degree;   /* of homogeneity: scaling the shape by s scales the measure by s^degree (for exact scale:).
+                     VES_NO_DEGREE: it does not scale so, and cannot be used in scale: */
+    int cost;     /* 0: like the samples themselves; 1: dear (solves systems): measured last */
+    bool extreme; /* an extreme over nodes: it settles slowly as grids get finer and has no say in choosing
+                     one */
     unsigned surface; /* VES_X | ... wanted at surface nodes */
     unsigned cap;     /* ... along caps; 0: the measure does not look at caps */
     unsigned curve;   /* ... along curves and at places that keys name: of VES_X, VES_XV, VES_XVV */

@@ -24,10 +24,11 @@ static ves_status measures_on(const ves_problem *problem, const double *x, const
     return status;
 }
 
-static double change_between(int count, const double *a, const double *b)
+static double change_between(const ves_problem *problem, const double *a, const double *b)
 {
     double worst = 0;
-    for (int k = 0; k < count; k++) {
+    for (int k = 0; k < problem->measures; k++) {
+        if (problem->measure[k].measure->extreme) continue;
         double size = fmax(fabs(a[k]), fabs(b[k])), change = size > 1e-9 ? fabs(a[k] - b[k]) / size : 0;
         worst = fmax(worst, change);
     }
@@ -74,7 +75,7 @@ static ves_status refine(const ves_problem *problem, const double *x, int d, int
         int finer = rounded(trial[d] + trial[d] / 2);
         trial[d] = finer;
         VES_TRY(measures_on(problem, x, trial, next, diag));
-        double change = change_between(count, value, next);
+        double change = change_between(problem, value, next);
         if (!calm) *left = change;
         calm = change <= ENOUGH ? calm + 1 : 0;
         if (calm) continue;

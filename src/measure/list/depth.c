@@ -20,6 +20,7 @@ const ves_measure ves_measure_depth = {
     .about = "how far the surface reaches along z, from the least to the largest z",
     .unit = "m",
     .degree = 1,
+    .extreme = true,
     .surface = VES_EXTREME_SURFACE,
     .room = ves_extent_room,
     .eval = eval,

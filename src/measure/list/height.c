@@ -20,6 +20,7 @@ const ves_measure ves_measure_height = {
     .about = "how far the surface reaches along y, from the least to the largest y",
     .unit = "m",
     .degree = 1,
+    .extreme = true,
     .surface = VES_EXTREME_SURFACE,
     .room = ves_extent_room,
     .eval = eval,

@@ -20,6 +20,7 @@ const ves_measure ves_measure_width = {
     .about = "how far the surface reaches along x, from the least to the largest x",
     .unit = "m",
     .degree = 1,
+    .extreme = true,
     .surface = VES_EXTREME_SURFACE,
     .room = ves_extent_room,
     .eval = eval,
