@@ -39,8 +39,9 @@ void ves_plan_grid(const ves_plan *plan, int level, int quadrature[2]);
  * (validity: self_intersection). */
 ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict);
 
-/* All measures at x (also those that nothing judges), and the rest of the number block: value[measures]. A
- * positive status: as a verdict; the measures are then NAN. */
+/* All measures at x, which may be NULL when the problem has no variables (also those that nothing judges),
+ * and the rest of the number block: value[measures]. A positive status: as a verdict; the measures are then
+ * NAN. */
 ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, double *value);
 
 /* After ves_plan_measure or ves_plan_evaluate: the slots (variables, unknown, parameters), and the similarity

@@ -16,7 +16,7 @@ static void parameters_bind(ves_plan *plan)
 void ves_plan_bind(ves_plan *plan, const double *x, double unknown)
 {
     const ves_problem *p = plan->problem;
-    memcpy(plan->block, x, sizeof *x * (size_t)p->variables);
+    if (p->variables) memcpy(plan->block, x, sizeof *x * (size_t)p->variables);
     if (p->unknowns) plan->block[p->variables] = unknown;
     parameters_bind(plan);
     for (int k = 0; k < p->numbers; k++)
