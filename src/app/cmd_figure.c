@@ -9,12 +9,14 @@ enum { WORDS = 16, NAMES = 64 };
 
 static int unknown_format(app *a, const char *word)
 {
-    static const char later[] = "glb|step|inp";
+    static const char later[] = "glb|step|inp", pictures[] = "png|svg|pdf";
     const char *name[NAMES];
     int count = 0;
     if (ves_words_find(later, word) >= 0)
         return app_fail(a, VES_ABSENT, "this version of vesica (%s) does not write %s yet", VESICA_VERSION,
                         word);
+    if (ves_words_find(pictures, word) >= 0)
+        return app_fail(a, VES_USAGE, "pictures are made by vesica show FILE --png NAME.%s", word);
     for (const ves_format *const *f = ves_formats(); *f && count < NAMES; f++) name[count++] = (*f)->name;
     int near = ves_text_nearest(word, name, count);
     if (near >= 0) return app_fail(a, VES_USAGE, "no format \"%s\", did you mean \"%s\"?", word, name[near]);

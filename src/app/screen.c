@@ -80,7 +80,10 @@ static void goal(const ves_problem *problem, const ves_design *best, const ves_d
     if (start && !isnan(start->objective)) {
         fprintf(out, "   start %s", app_screen_number(start->objective, b));
         double change = 100 * (best->objective / start->objective - 1);
-        if (isfinite(change)) fprintf(out, "   %+.1f %%", change);
+        if (!start->feasible)
+            fputs(", which violates a constraint", out); /* then the change says nothing */
+        else if (isfinite(change))
+            fprintf(out, "   %+.1f %%", change);
     }
     fputs("\n\n", out);
 }
