@@ -338,6 +338,28 @@ static void forms_store(const plan_site *s, const ves_tile *tile, unsigned needs
     }
 }
 
+/* Forms of a tile into the planes of the grid: straight, where the tile is as wide as a register, else
+ * through a buffer. */
+static ves_status forms_sample(ves_plan *plan, plan_site *s, const ves_tile *tile, unsigned needs)
+{
+    ves_samples *m = &s->samples;
+    ves_form_rows rows;
+    bool curvature = needs & VES_CURVATURE;
+    if (tile->lanes < VES_LANES) {
+        ves_form_rows_init(plan->form, &rows);
+        ves_status status = ves_forms_eval(tile, plan->field, s->side, curvature, &rows);
+        forms_store(s, tile, needs, plan->form);
+        return status;
+    }
+    for (int c = 0; c < 3; c++) rows.at[VES_FORM_NX + c] = needs & VES_NORMAL ? (double *)m->normal[c] : NULL;
+    rows.at[VES_FORM_J] = needs & VES_AREA ? (double *)m->dA : NULL;
+    rows.at[VES_FORM_H] = curvature ? (double *)m->H : NULL;
+    rows.at[VES_FORM_K] = curvature ? (double *)m->K : NULL;
+    rows.weight = s->grid.weight;
+    for (int r = 0; r < tile->rows; r++) rows.offset[r] = (size_t)(tile->row[r] * s->grid.nu + tile->block);
+    return ves_forms_eval(tile, plan->field, s->side, curvature, &rows);
+}
+
 /* A site without forms is looked at for numbers here; with forms ves_forms_eval does. */
 static bool finite_points(const plan_site *s)
 {
@@ -366,10 +388,8 @@ ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gr
             for (int c = 0; c < 3 && needs & FIELD_NEED[f]; c++)
                 tile_store(s, &tile, plan->field->at[f * 3 + c], NULL, sample_field(&s->samples, f)[c]);
         if (needs & FORM_NEEDS) {
-            ves_status status =
-                ves_forms_eval(&tile, plan->field, s->side, needs & VES_CURVATURE, plan->form);
+            ves_status status = forms_sample(plan, s, &tile, needs);
             if (status != VES_OK) worst = status;
-            forms_store(s, &tile, needs, plan->form);
         }
     }
     if (!(needs & FORM_NEEDS) && needs & VES_X && !finite_points(s)) return VES_DEGENERATE;

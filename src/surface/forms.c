@@ -65,22 +65,35 @@ HOT forms forms_at(const ves_tile_planes *field, int s, bool second)
     return f;
 }
 
+void ves_form_rows_init(ves_form_planes *planes, ves_form_rows *rows)
+{
+    for (int k = 0; k < VES_FORMS; k++) rows->at[k] = planes->at[k];
+    for (int r = 0; r < VES_TILE_ROWS; r++) rows->offset[r] = (size_t)(r * VES_LANES);
+    rows->weight = NULL;
+}
+
+HOT void put(const ves_form_rows *form, int which, size_t at, lanes x)
+{
+    if (form->at[which]) ves_lanes_put(form->at[which] + at, x);
+}
+
 HOT ves_status eval(const ves_tile *tile, const ves_tile_planes *field, double side, bool second,
-                    ves_form_planes *form)
+                    const ves_form_rows *form)
 {
     lanes least = HUGE_VAL + (lanes){0}, total = {0};
-    for (int s = 0; s < tile->rows * VES_LANES; s += VES_LANES) {
-        forms f = forms_at(field, s, second);
-        lanes j2 = dot(f.n, f.n), g = f.E + f.G, r2 = f.r * f.r, t = side * f.r;
-        ves_lanes_put(form->at[VES_FORM_NX] + s, t * f.n.x);
-        ves_lanes_put(form->at[VES_FORM_NY] + s, t * f.n.y);
-        ves_lanes_put(form->at[VES_FORM_NZ] + s, t * f.n.z);
-        ves_lanes_put(form->at[VES_FORM_J] + s, j2 * f.r);
+    for (int row = 0; row < tile->rows; row++) {
+        forms f = forms_at(field, row * VES_LANES, second);
+        lanes j2 = dot(f.n, f.n), g = f.E + f.G, r2 = f.r * f.r, t = side * f.r, j = j2 * f.r;
+        size_t at = form->offset[row];
+        put(form, VES_FORM_NX, at, t * f.n.x);
+        put(form, VES_FORM_NY, at, t * f.n.y);
+        put(form, VES_FORM_NZ, at, t * f.n.z);
+        put(form, VES_FORM_J, at, form->weight ? j * ves_lanes_at(form->weight + at) : j);
         least = ves_lanes_min(least, j2 - FLAT * g * g);
         total += j2;
         if (!second) continue;
-        ves_lanes_put(form->at[VES_FORM_H] + s, -0.5 * (f.E * f.N - 2 * f.F * f.M + f.G * f.L) * r2 * t);
-        ves_lanes_put(form->at[VES_FORM_K] + s, (f.L * f.N - f.M * f.M) * r2 * r2);
+        put(form, VES_FORM_H, at, -0.5 * (f.E * f.N - 2 * f.F * f.M + f.G * f.L) * r2 * t);
+        put(form, VES_FORM_K, at, (f.L * f.N - f.M * f.M) * r2 * r2);
     }
     double low = HUGE_VAL, sum_of_all = 0; /* a minimum forgets what is no number, a sum does not */
     for (int k = 0; k < VES_LANES; k++) low = fmin(low, least[k]), sum_of_all += total[k];
@@ -88,7 +101,7 @@ HOT ves_status eval(const ves_tile *tile, const ves_tile_planes *field, double s
 }
 
 ves_status ves_forms_eval(const ves_tile *tile, const ves_tile_planes *field, double side, bool curvature,
-                          ves_form_planes *form)
+                          const ves_form_rows *form)
 {
     return curvature ? eval(tile, field, side, true, form) : eval(tile, field, side, false, form);
 }

@@ -15,11 +15,22 @@ typedef struct ves_form_planes {
     _Alignas(64) double at[VES_FORMS][VES_TILE_STRIDE];
 } ves_form_planes;
 
+/* Where forms go: a plane for each, NULL where one is not wanted; row r of the tile begins at offset[r].
+ * weight: J is multiplied by it (then it is dA), or NULL. */
+typedef struct ves_form_rows {
+    double *at[VES_FORMS];
+    size_t offset[VES_TILE_ROWS];
+    const double *weight;
+} ves_form_rows;
+
+/* All planes of a buffer, rows as in the tile. */
+void ves_form_rows_init(ves_form_planes *planes, ves_form_rows *rows);
+
 /* Fills normal and J; with `curvature` H and K too (the tile must then have the second derivatives).
  * VES_DEGENERATE when some node has no tangent plane: |Xu x Xv| below 1e-12 (|Xu|^2 + |Xv|^2), where rounding
  * decides the direction of the normal, or no number. */
 ves_status ves_forms_eval(const ves_tile *tile, const ves_tile_planes *field, double side, bool curvature,
-                          ves_form_planes *form);
+                          const ves_form_rows *form);
 
 /* Overwrites d J / d (first and, with `curvature`, second derivatives), given d J / d forms (normal, J, H,
  * K). */
