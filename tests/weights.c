@@ -156,7 +156,9 @@ Test(weights, table_agrees_with_single_modes)
             double u[PLACES], one[3 * MOST * PLACES], room[1000] __attribute__((aligned(64))),
                 *table = malloc(sizeof *table * (size_t)((MODES + 1) * row));
             places(u);
-            ves_weights_bind(layout, a, MODES, PLACES, u, &(ves_table){table, NULL, room});
+            ves_weights_bind(layout, a, MODES, PLACES, u, &(ves_table){table, NULL, room, false});
+            ves_weights_bind(layout, a, MODES, PLACES, u,
+                             &(ves_table){table, NULL, room, true}); /* mode 0 stays */
             for (int n = 0; n <= MODES; n++) {
                 ves_weights_mode(layout, a * n, PLACES, u, one, NULL, room);
                 for (int k = 0; k < row; k++) {

@@ -33,7 +33,7 @@ typedef struct pde_chart {
     double *room;
     ves_synthesis synthesis;
     double a_table; /* a of the tables, NAN: none yet */
-    bool has_table_a;
+    bool has_table_a, has_zero_a;
     long binding;
 } pde_chart;
 
@@ -171,11 +171,14 @@ static void tables_eval(const pde *p, pde_chart *c, bool gradient)
 {
     gradient = gradient && p->a_varies;
     if (c->a_table == p->a_value && (c->has_table_a || !gradient)) return;
+    /* mode 0 is the same for every a; its derivative table is all zeros once it has been made */
+    bool has_zero = !isnan(c->a_table) && (c->has_zero_a || !gradient);
+    c->has_zero_a = c->has_zero_a || gradient;
     c->a_table = p->a_value;
     c->has_table_a = gradient;
     double a = p->a_value;
     ves_weights_bind(&p->layout, a, p->modes, c->nup, c->u,
-                     &(ves_table){c->table, gradient ? c->table_a : NULL, c->room});
+                     &(ves_table){c->table, gradient ? c->table_a : NULL, c->room, has_zero});
     if (p->band == p->modes) return;
     ves_weights_mode(&p->layout, a * (p->modes + 1), c->nup, c->u, c->rest, gradient ? c->rest_a : NULL,
                      c->room);
@@ -371,7 +374,7 @@ static void point_sum(const pde *p, const double *table, const double *rest, int
 
 static void chunk_tables(const pde *p, const double *u, double *table, double *rest, double *room)
 {
-    ves_weights_bind(&p->layout, p->a_value, p->modes, CHUNK, u, &(ves_table){table, NULL, room});
+    ves_weights_bind(&p->layout, p->a_value, p->modes, CHUNK, u, &(ves_table){table, NULL, room, false});
     ves_weights_mode(&p->layout, p->a_value * (p->modes + 1), CHUNK, u, rest, NULL, room);
 }
 

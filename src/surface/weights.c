@@ -308,11 +308,12 @@ void ves_weights_mode(const ves_layout *layout, double lam, int nu, const double
 HOT void bind(const ves_layout *layout, int N, double a, int modes, const places *p, const ves_table *table)
 {
     int row = 3 * 2 * N * p->nu;
+    int first = table->has_zero ? 1 : 0;
     for (int i = 0; i < p->width; i++) {
-        p->left[i] = p->right[i] = 1;
         p->left_1[i] = exp(-a * p->u[i]), p->right_1[i] = exp(-a * p->mirrored[i]);
+        p->left[i] = first ? p->left_1[i] : 1, p->right[i] = first ? p->right_1[i] : 1;
     }
-    for (int n = 0; n <= modes; n++) {
+    for (int n = first; n <= modes; n++) {
         double *weight_a = table->weight_a ? table->weight_a + (size_t)row * (size_t)n : NULL;
         basis(p, N, a * n, N + (table->weight_a != NULL));
         combine(layout, p, N, a * n, table->weight + (size_t)row * (size_t)n, weight_a);

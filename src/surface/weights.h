@@ -8,6 +8,8 @@
 #ifndef VES_SURFACE_WEIGHTS_H
 #define VES_SURFACE_WEIGHTS_H
 
+#include <stdbool.h>
+
 #include "vesica/status.h"
 
 enum { VES_POWER_MAX = 2, VES_CONDITIONS_MAX = 2 * VES_POWER_MAX };
@@ -37,6 +39,7 @@ typedef struct ves_table {
     double *weight;   /* ves_weights_size doubles */
     double *weight_a; /* their derivatives with respect to a, or NULL: not wanted */
     double *room;     /* ves_weights_room doubles */
+    bool has_zero;    /* mode 0, which does not depend on a, is there already */
 } ves_table;
 
 /* Fills the table for modes 0 .. modes at lam = a n (a >= 0; 0 is legal). Allocates nothing. */
