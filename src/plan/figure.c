@@ -52,8 +52,7 @@ static ves_status patch_sample(ves_plan *plan, ves_figure *figure, int k, double
         ves_tile tile;
         ves_tile_at(grid, VES_TILE_ROWS, t, EVERYTHING, &tile);
         ves_chart_sample(chart, &tile, plan->field);
-        for (int p = 0; p < VES_FIELDS * 3; p++)
-            for (int n = 0; n < tile.rows * VES_LANES; n++) plan->field->at[p][n] *= plan->similarity;
+        ves_tile_scale(&tile, plan->similarity, plan->field);
         ves_form_rows rows;
         ves_form_rows_init(plan->form, &rows);
         ves_forms_eval(&tile, plan->field, f->side, true, &rows);

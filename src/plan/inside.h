@@ -45,7 +45,6 @@ typedef struct plan_instance {
 
 typedef struct plan_level {
     int quadrature[2];
-    bool built;
     int sites;
     plan_site *site;         /* first one for each patch, then caps, then what keys name */
     plan_instance *instance; /* [measures] */

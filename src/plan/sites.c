@@ -87,14 +87,8 @@ static ves_status site_finish(ves_plan *plan, plan_site *s, ves_site kind)
             for (int j = 0; j < s->grid.nv; j++) {
                 double *t = s->trig + (size_t)(e * stride * s->grid.nv + j);
                 t[0] = e == 0;
-                for (int n = 1; n <= s->curve_modes; n++) {
-                    double co = cos(n * s->grid.v[j]), si = sin(n * s->grid.v[j]),
-                           p = e == 0   ? 1
-                               : e == 1 ? n
-                                        : (double)n * n;
-                    t[(2 * n - 1) * s->grid.nv] = p * (e == 0 ? co : e == 1 ? -si : -co);
-                    t[2 * n * s->grid.nv] = p * (e == 0 ? si : e == 1 ? co : -si);
-                }
+                for (int n = 1; n <= s->curve_modes; n++)
+                    ves_wave(n, s->grid.v[j], e, &t[(2 * n - 1) * s->grid.nv], &t[2 * n * s->grid.nv]);
             }
     }
     return planes_take(plan, s);
@@ -277,7 +271,6 @@ ves_status ves_plan_level_build(ves_plan *plan, int index)
         l->site[k].samples.side = side;
     }
     for (int m = 0; m < p->measures; m++) VES_TRY(instance_finish(plan, l, m));
-    l->built = true;
     return VES_OK;
 }
 
@@ -318,13 +311,6 @@ static void tile_store(const plan_site *s, const ves_tile *tile, const double *f
                 to[at + (size_t)i] = row[i] * (factor ? factor[at + (size_t)i] : 1);
         }
     }
-}
-
-static void tile_scale(const ves_tile *tile, double similarity, ves_tile_planes *field)
-{
-    for (int f = 0; f < VES_FIELDS; f++)
-        for (int c = 0; c < 3 && tile->fields & 1u << f; c++)
-            for (int k = 0; k < tile->rows * VES_LANES; k++) field->at[f * 3 + c][k] *= similarity;
 }
 
 static void forms_store(const plan_site *s, const ves_tile *tile, unsigned needs, const ves_form_planes *form)
@@ -383,7 +369,7 @@ ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gr
         ves_tile tile;
         ves_tile_at(&s->grid, VES_TILE_ROWS, k, fields_for(needs), &tile);
         ves_chart_sample(s->chart, &tile, plan->field);
-        if (plan->similarity != 1) tile_scale(&tile, plan->similarity, plan->field);
+        if (plan->similarity != 1) ves_tile_scale(&tile, plan->similarity, plan->field);
         for (int f = 0; f < VES_FIELDS; f++)
             for (int c = 0; c < 3 && needs & FIELD_NEED[f]; c++)
                 tile_store(s, &tile, plan->field->at[f * 3 + c], NULL, sample_field(&s->samples, f)[c]);
@@ -527,7 +513,7 @@ double ves_site_scatter(ves_plan *plan, plan_site *s, unsigned needs)
         ves_tile tile;
         ves_tile_at(&s->grid, GRADIENT_ROWS, k, fields_for(needs), &tile);
         ves_chart_sample(s->chart, &tile, plan->field);
-        if (plan->similarity != 1) tile_scale(&tile, plan->similarity, plan->field);
+        if (plan->similarity != 1) ves_tile_scale(&tile, plan->similarity, plan->field);
         adjoint_make(plan, s, &tile, needs);
         if (scaled) by_similarity += tile_unscale(&tile, plan->similarity, plan->field, plan->field_adjoint);
         ves_chart_scatter(s->chart, &tile, plan->field_adjoint);

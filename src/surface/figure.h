@@ -61,6 +61,4 @@ int ves_figure_owner(const ves_figure *figure, int patch, int node, int *owner);
 double ves_figure_u(const ves_figure_patch *patch, int node);
 double ves_figure_v(const ves_figure_patch *patch, int node);
 
-/* Frees a figure that ves_memory_take made, with all that its arena holds. */
-
 #endif

@@ -109,12 +109,7 @@ static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena
         for (int n = p->modes + 1; n <= p->band; n++)
             for (int j = 0; j < grid->nv; j++) {
                 double *w = c->wave + (size_t)(((e * tail + n - p->modes - 1) * 2) * grid->nv);
-                double phase = n * grid->v[j], co = cos(phase), si = sin(phase),
-                       f = e == 0   ? 1
-                           : e == 1 ? n
-                                    : (double)n * n;
-                w[j] = f * (e == 0 ? co : e == 1 ? -si : -co);
-                w[grid->nv + j] = f * (e == 0 ? si : e == 1 ? co : -si);
+                ves_wave(n, grid->v[j], e, &w[j], &w[grid->nv + j]);
             }
     chart->state = c;
     return ves_synthesis_create(grid, p->modes, arena, &c->synthesis);

@@ -20,19 +20,22 @@ HOT double *row_table(const ves_synthesis *s, int e, int row)
     return s->table + (size_t)((e * blocks(s) + row / FOUR) * (1 + 2 * s->modes) * FOUR + row % FOUR);
 }
 
-/* d^e/dv^e turns cos into n^e times cos, -sin, -cos, and sin into n^e times sin, cos, -sin. Both sit in the
- * place of the coefficient they multiply. */
+void ves_wave(int n, double v, int e, double *of_cosine, double *of_sine)
+{
+    double c = cos(n * v), s = sin(n * v), p = e == 0 ? 1 : e == 1 ? n : (double)n * n;
+    *of_cosine = p * (e == 0 ? c : e == 1 ? -s : -c);
+    *of_sine = p * (e == 0 ? s : e == 1 ? c : -s);
+}
+
+/* Both derivatives sit in the place of the coefficient that they multiply. */
 static void fill(const ves_synthesis *s)
 {
     for (int e = 0; e < 3; e++)
         for (int j = 0; j < s->rows; j++) {
-            double *t = row_table(s, e, j), v = s->grid->v[j];
+            double *t = row_table(s, e, j);
             t[0] = e == 0;
-            for (int n = 1; n <= s->modes; n++) {
-                double c = cos(n * v), w = sin(n * v), p = e == 0 ? 1 : e == 1 ? n : (double)n * n;
-                t[(2 * n - 1) * FOUR] = p * (e == 0 ? c : e == 1 ? -w : -c);
-                t[2 * n * FOUR] = p * (e == 0 ? w : e == 1 ? c : -w);
-            }
+            for (int n = 1; n <= s->modes; n++)
+                ves_wave(n, s->grid->v[j], e, &t[(2 * n - 1) * FOUR], &t[2 * n * FOUR]);
         }
 }
 

@@ -8,6 +8,9 @@
 
 #include "surface/tile.h"
 
+/* d^e/dv^e of cos(n v) and of sin(n v), e = 0 .. 2: what the coefficients a_n and b_n are multiplied by. */
+void ves_wave(int n, double v, int e, double *of_cosine, double *of_sine);
+
 /* Tables of n^e cos(n v_j) and n^e sin(n v_j) on a grid. */
 typedef struct ves_synthesis {
     const ves_grid *grid;

@@ -39,3 +39,10 @@ void ves_tile_at(const ves_grid *grid, int rows, int index, unsigned fields, ves
         }
     }
 }
+
+void ves_tile_scale(const ves_tile *tile, double factor, ves_tile_planes *field)
+{
+    for (int f = 0; f < VES_FIELDS; f++)
+        for (int c = 0; c < 3 && tile->fields & 1u << f; c++)
+            for (int k = 0; k < tile->rows * VES_LANES; k++) field->at[f * 3 + c][k] *= factor;
+}

@@ -83,6 +83,9 @@ typedef struct ves_tile_planes {
 int ves_tile_count(const ves_grid *grid, int rows);
 void ves_tile_at(const ves_grid *grid, int rows, int index, unsigned fields, ves_tile *tile);
 
+/* Multiplies the fields that the tile names. */
+void ves_tile_scale(const ves_tile *tile, double factor, ves_tile_planes *field);
+
 /* nu rounded up to whole registers. */
 static inline int ves_padded(int nu)
 {
