@@ -331,6 +331,37 @@ Test(study, a_given_quadrature_is_used_and_an_unsettled_one_is_told)
     finish(&t);
 }
 
+/* Frustums over the unit disc: area pi (1 + q) sqrt((1 - q)^2 + h^2) is least for the cone, q = 0, where the
+ * range of the radius ends. */
+Test(study, a_search_goes_round_numbers_that_leave_their_range)
+{
+    trial t =
+        run_with("vesica: 1\nvariables: {r: [0.2, 1.4, 2]}\n"
+                 "curves: {p: {circle: {radius: 1}}, q: {circle: {radius: r - 0.5, centre: [0, 0, 1.5]}}}\n"
+                 "patches: {w: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: p}, {u: 1, "
+                 "position: q}]}}\n"
+                 "minimize: area\n",
+                 &(ves_run_options){.evaluations = 1000, .seeded = true, .seed = 3}, NULL);
+    cr_assert(t.status == VES_OK && t.run->any && t.run->feasible);
+    cr_expect(t.run->failed[VES_OUTSIDE] > 0, "no candidate was outside");
+    cr_expect(t.run->best.x[0] >= 0.5);
+    near(t.run->best.objective, PI * sqrt(1 + 1.5 * 1.5), 1e-4, "area"); /* its slope there is 3.9 */
+    finish(&t);
+}
+
+Test(study, a_start_whose_root_lies_outside_is_told_with_its_place)
+{
+    trial t = run_with(
+        TUBE "  cone: {operator: {power: 1, a: h - 0.5}, conditions: [{u: 0, position: high}, {u: 1, "
+             "position: low}]}\nsolve: {unknown: h, in: [0.25, 1.5], equation: area + h == 26}\n",
+        &(ves_run_options){.once = true}, NULL);
+    cr_assert(t.status == VES_OK && t.run->start.status == VES_OUTSIDE);
+    cr_expect(said(t.diag,
+                   "test.yaml:8:34: warning: the start design cannot be measured: \"a\" must be >= 0, got "
+                   "-0.25, with h = 0.25"));
+    finish(&t);
+}
+
 /* --- stopping --- */
 
 static bool after_some(void *data)

@@ -252,6 +252,47 @@ Test(verdicts, a_smoothing_parameter_below_zero_is_outside)
     bed_clear(&b);
 }
 
+/* Every number of a key with a range, through parameters and lists too; what nothing uses may be anything. */
+Test(verdicts, a_number_that_leaves_the_range_of_its_key_is_outside)
+{
+    bed b = bed_make("vesica: 1\nvariables: {r: [0.2, 1.4, 2], s: [-2, 1, 2]}\nparameters: {q: 2*r - 1}\n"
+                     "curves:\n"
+                     "  p: {circle: {radius: q/2}}\n"
+                     "  q: {ellipse: {radii: [1.5, \"r - 0.3\"], centre: [0, 0, 1.5]}}\n"
+                     "  idle: {circle: {radius: r - 1}}\n"
+                     "patches: {w: {operator: {power: 1, a: 1}, conditions: [{u: 0, position: p}, {u: 1, "
+                     "position: q}]}}\n"
+                     "measures: {k: {max_curvature: {smooth: s + 1}}}\n"
+                     "validity: {least_radius: {value: \"0.15 - 0.1*s\"}}\nminimize: area\n",
+                     NULL);
+    const struct {
+        double x[2];
+        ves_status want;
+        const char *says;
+    } table[] = {
+        {{1.4, 1}, VES_OK, NULL},
+        {{0.6, 1}, VES_OK, NULL},
+        {{0.4, 1}, VES_OUTSIDE, "test.yaml:5:24: warning: here: \"radius\" must be >= 0, got -0.1\n"},
+        {{0.25, 1}, VES_OUTSIDE, "test.yaml:5:24"},
+        {{1.4, 1.6}, VES_OUTSIDE, "\"value\" must be >= 0, got -0.01\n"},
+        {{1.4, -1.5}, VES_OUTSIDE, "\"smooth\" must be >= 0, got -0.5\n"}};
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        double arrays[24];
+        char text[1000] = "";
+        ves_diag *diag = ves_diag_create();
+        ves_diag_source(diag, "test.yaml", "", 0);
+        ves_status got = judged(&b, table[k].x, VES_WANT_GRADIENT, HUGE_VAL, arrays).status;
+        cr_expect_eq(got, table[k].want, "case %zu: %s", k, ves_status_text(got));
+        ves_plan_outside(b.plan, "here", diag);
+        cr_expect_eq(ves_diag_count(diag), table[k].says != NULL, "case %zu", k);
+        ves_diag_text(diag, 0, text, sizeof text);
+        strcat(text, "\n");
+        cr_expect(!table[k].says || strstr(text, table[k].says), "case %zu: %s", k, text);
+        ves_diag_destroy(diag);
+    }
+    bed_clear(&b);
+}
+
 /* The sides of a constraint stay those of the scaled shape after a gradient. */
 Test(verdicts, constraints_are_told_on_the_scaled_shape)
 {

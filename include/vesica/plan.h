@@ -44,6 +44,10 @@ ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *ve
  * NAN. */
 ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, double *value);
 
+/* After an answer VES_OUTSIDE: a warning "what: ..." about the number that has left the range of its key,
+ * with its place in the file. */
+void ves_plan_outside(const ves_plan *plan, const char *what, ves_diag *diag);
+
 /* After ves_plan_measure or ves_plan_evaluate: the slots (variables, unknown, parameters), and the similarity
  * factor of scale: */
 const double *ves_plan_slots(const ves_plan *plan);

@@ -1,4 +1,4 @@
-/* x -> the number block -> curves -> patches, and the way back for gradients. */
+/* x -> the number block -> curves -> patches, and the way back for gradients; ranges of numbers that vary. */
 #include "plan/inside.h"
 
 #include <string.h>
@@ -24,6 +24,31 @@ void ves_plan_bind(ves_plan *plan, const double *x, double unknown)
             plan->block[p->slots + k] = ves_formula_eval(p->number[k], plan->block, NULL, plan->formula_room);
     ves_curves_bind(plan->curves, plan->block);
     ves_plan_bind_patches(plan);
+}
+
+const ves_limit *ves_plan_limit(const ves_plan *plan)
+{
+    const ves_problem *p = plan->problem;
+    for (int k = 0; k < p->limits; k++) {
+        const ves_limit *l = &p->limit[k];
+        double value = plan->block[l->number];
+        if (!(value >= l->low && value <= l->high)) return l; /* or it is no number */
+    }
+    return NULL;
+}
+
+void ves_plan_outside(const ves_plan *plan, const char *what, ves_diag *diag)
+{
+    const ves_problem *p = plan->problem;
+    const ves_limit *l = ves_plan_limit(plan);
+    char limit[96], got[32], root[32];
+    if (!l) return;
+    ves_limit_text(l->low, l->high, limit);
+    ves_number_text(plan->block[l->number], got);
+    if (p->solve) ves_number_text(plan->block[p->variables], root);
+    ves_diag_add(diag, VES_WARNING, VES_OUTSIDE, l->mark, "%s: \"%s\" must be %s, got %s%s%s%s%s", what,
+                 l->key, limit, got, p->solve ? ", with " : "", p->solve ? p->solve->name : "",
+                 p->solve ? " = " : "", p->solve ? root : "");
 }
 
 void ves_plan_bind_patches(ves_plan *plan)

@@ -55,18 +55,9 @@ static ves_status scale(ves_plan *plan, int index, bool gradient)
     return VES_OK;
 }
 
-/* The smoothing parameter of every patch must stay >= 0; it may be a formula. */
-static bool outside(const ves_plan *plan)
-{
-    const ves_problem *p = plan->problem;
-    for (int k = 0; k < p->patches; k++)
-        if (p->patch[k].kind == VES_PATCH_PDE && !(plan->block[p->patch[k].a] >= 0)) return true;
-    return false;
-}
-
 ves_status ves_plan_run(ves_plan *plan, int index, plan_program which, bool gradient)
 {
-    if (outside(plan)) return VES_OUTSIDE;
+    if (ves_plan_limit(plan)) return VES_OUTSIDE;
     VES_TRY(scale(plan, index, gradient));
     VES_TRY(sample(plan, index, which, gradient));
     return measure(plan, index, which);

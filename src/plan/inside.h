@@ -95,6 +95,7 @@ void ves_site_gather(ves_plan *plan, plan_site *s);
 /* bind.c: x -> block -> curves -> patches, and back */
 void ves_plan_bind(ves_plan *plan, const double *x, double unknown);
 void ves_plan_bind_patches(ves_plan *plan);
+const ves_limit *ves_plan_limit(const ves_plan *plan); /* the first that is not kept, or NULL */
 void ves_plan_pull(ves_plan *plan, const double *number_adjoint, double *slot_row);
 
 /* forward.c: programs */

@@ -28,10 +28,9 @@ static bool is_list(ves_reader *reader, const ves_node *node, const char *name, 
     return false;
 }
 
-/* Appends a number; with a hole for one that cannot be read, so that places stay consecutive. */
 static void number(ves_reader *reader, const ves_node *node, const ves_key *key, ves_arg *arg)
 {
-    int index = ves_reader_append(reader, ves_reader_number(reader, node, key));
+    int index = ves_reader_place(reader, node, key);
     if (!arg->count++) arg->first = index;
 }
 
@@ -47,8 +46,8 @@ static void scales(ves_reader *reader, const ves_node *node, const ves_key *key,
         vector(reader, node, key, arg);
         return;
     }
-    const ves_formula *formula = ves_reader_number(reader, node, key);
-    arg->first = ves_reader_append(reader, formula);
+    arg->first = ves_reader_place(reader, node, key);
+    const ves_formula *formula = arg->first < 0 ? NULL : reader->number[arg->first - reader->slots];
     ves_reader_append(reader, formula);
     ves_reader_append(reader, formula);
     arg->count = 3;

@@ -107,11 +107,6 @@ ves_mark ves_reader_mark(const ves_reader *reader, const ves_node *node)
     return node ? ves_node_mark(reader->script, node) : (ves_mark){0};
 }
 
-void ves_reader_show(double value, char text[32])
-{
-    snprintf(text, 32, "%.12g", value);
-}
-
 const char *ves_reader_suggestion(ves_reader *reader, const char *word, const char *const *candidate,
                                   int count)
 {

@@ -96,9 +96,21 @@ static void number_block(ves_reader *reader)
     p->varying = varying;
 }
 
+/* What nothing uses may leave its range. */
+static void limits(ves_reader *reader)
+{
+    ves_limit *limit = ves_arena_take(reader->arena, (size_t)reader->limits, sizeof *limit);
+    if (!ves_reader_memory(reader, limit)) return;
+    for (int k = 0; k < reader->limits; k++)
+        if (weight_of(reader, reader->limit[k].owner) == DRIVES)
+            limit[reader->problem->limits++] = reader->limit[k].limit;
+    reader->problem->limit = limit;
+}
+
 void ves_reader_finish(ves_reader *reader, const ves_fields *root)
 {
     spread_curves(reader);
     check_use(reader, root);
     if (reader->status == VES_OK) number_block(reader);
+    if (reader->status == VES_OK) limits(reader);
 }

@@ -163,21 +163,6 @@ void ves_reader_check_dim(ves_reader *reader, const ves_node *node, const char *
                      ves_dim_plain(dim) ? "; numbers of this file have units" : "");
 }
 
-static void limits_text(const ves_key *key, char text[96])
-{
-    char low[32], high[32];
-    ves_reader_show(key->min, low);
-    ves_reader_show(key->max, high);
-    bool above = !isinf(key->min), below = !isinf(key->max);
-    text[0] = 0;
-    if (key->min == VES_POSITIVE)
-        strcat(strcat(strcat(text, "> 0"), below ? " and <= " : ""), below ? high : "");
-    else if (above && below)
-        strcat(strcat(strcat(strcat(strcat(text, "in ["), low), ", "), high), "]");
-    else
-        strcat(strcat(text, above ? ">= " : "<= "), above ? low : high);
-}
-
 static bool bounded(const ves_key *key)
 {
     return key->min != 0 || key->max != 0;
@@ -195,8 +180,8 @@ static void check_range(ves_reader *reader, const ves_node *node, const ves_key 
     bool constant = !ves_reader_varies(reader, formula);
     if (!constant && (isnan(value) || !bounded(key))) return;
     char limits[96], got[32];
-    ves_reader_show(value, got);
-    limits_text(key, limits);
+    ves_number_text(value, got);
+    ves_limit_text(key->min, key->max, limits);
     if (!isfinite(value) && constant) {
         if (!isnan(value) || ves_formula_is_constant(formula, NULL))
             ves_reader_error(reader, VES_RANGE, node, "\"%s\" is not a finite number: %s", key->name, got);
@@ -216,8 +201,8 @@ static void check_variable(ves_reader *reader, const ves_node *node, const ves_k
         double worst = inside(key, v->min) ? v->max : v->min;
         if (inside(key, worst) || isnan(worst)) return;
         char limits[96], got[32];
-        limits_text(key, limits);
-        ves_reader_show(worst, got);
+        ves_limit_text(key->min, key->max, limits);
+        ves_number_text(worst, got);
         ves_reader_error(reader, VES_RANGE, node, "\"%s\" must be %s, but variable \"%s\" may become %s",
                          key->name, limits, v->name, got);
         return;
@@ -253,6 +238,27 @@ const ves_formula *ves_reader_number(ves_reader *reader, const ves_node *node, c
     check_range(reader, node, key, formula);
     if (reader->errors == before) check_variable(reader, node, key);
     return formula;
+}
+
+static void note_limit(ves_reader *reader, const ves_node *node, const ves_key *key, int number)
+{
+    if (reader->limits == reader->limit_room) {
+        int room = reader->limit_room ? 2 * reader->limit_room : 16;
+        ves_reader_limit *more = ves_memory_grow(reader->limit, (size_t)room * sizeof *more);
+        if (!ves_reader_memory(reader, more)) return;
+        reader->limit = more;
+        reader->limit_room = room;
+    }
+    const ves_limit limit = {number, key->min, key->max, key->name, ves_reader_mark(reader, node)};
+    reader->limit[reader->limits++] = (ves_reader_limit){limit, reader->owner};
+}
+
+int ves_reader_place(ves_reader *reader, const ves_node *node, const ves_key *key)
+{
+    const ves_formula *formula = ves_reader_number(reader, node, key);
+    int index = ves_reader_append(reader, formula);
+    if (bounded(key) && ves_reader_varies(reader, formula)) note_limit(reader, node, key, index);
+    return index;
 }
 
 double ves_reader_constant(ves_reader *reader, const ves_node *node, const ves_key *key)

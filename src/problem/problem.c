@@ -124,6 +124,7 @@ static ves_status pass(const task *t, ves_arena *arena, ves_problem **problem, b
     ves_memory_free(reader.message);
     ves_memory_free(reader.number);
     ves_memory_free(reader.use);
+    ves_memory_free(reader.limit);
     ves_memory_free(reader.room);
     return status;
 }

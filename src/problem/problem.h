@@ -145,6 +145,14 @@ typedef struct ves_validity_def {
     const int *monotone_patch;
 } ves_validity_def;
 
+/* A number whose key has a range, and which varies: it is looked at for every candidate. */
+typedef struct ves_limit {
+    int number; /* number block index */
+    double low, high;
+    const char *key;
+    ves_mark mark;
+} ves_limit;
+
 struct ves_problem {
     ves_arena arena;
     const char *path, *name, *title; /* name: the file's name without folder and ending */
@@ -158,6 +166,8 @@ struct ves_problem {
     const ves_parameter *parameter;
     const ves_formula *const *number; /* number k is block entry slots + k */
     const bool *varying;              /* [block]: depends on a variable or on the unknown */
+    int limits;
+    const ves_limit *limit; /* of numbers that something uses */
 
     int curves, patches, places, measures, constraints, expects, test_expects;
     int curve_limit;            /* most modes of a curve */
@@ -179,5 +189,9 @@ struct ves_problem {
     ves_search_options test;           /* what `test:` overrides: budget and stages */
     const ves_expect_def *test_expect; /* replaces expect in a test run when given */
 };
+
+/* limit.c: "> 0", ">= 0", "in [0, 1]"; and a number for people. */
+void ves_limit_text(double low, double high, char text[96]);
+void ves_number_text(double value, char text[32]);
 
 #endif

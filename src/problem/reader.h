@@ -40,6 +40,12 @@ typedef struct ves_use {
     int owner;
 } ves_use;
 
+/* A limit, and whose it is, as in ves_use. */
+typedef struct ves_reader_limit {
+    ves_limit limit;
+    int owner;
+} ves_reader_limit;
+
 typedef struct ves_reader {
     ves_arena *arena;
     const ves_script *script;
@@ -62,6 +68,8 @@ typedef struct ves_reader {
     int numbers, number_room;
     ves_use *use;
     int uses, use_room;
+    ves_reader_limit *limit; /* growing */
+    int limits, limit_room;
     int owner;     /* of the numbers that are being read */
     ves_dim *free; /* dimension of keys without a unit; NULL: none is asked */
     bool surface;  /* FORMULAS are of u and v, not of v alone */
@@ -99,8 +107,6 @@ void ves_reader_warn(ves_reader *reader, ves_mark mark, const char *format, ...)
 bool ves_reader_full(const ves_reader *reader);
 /* Hands the messages to the diagnostics. */
 void ves_reader_tell(ves_reader *reader, ves_diag *diag);
-/* A number for people. */
-void ves_reader_show(double value, char text[32]);
 bool ves_reader_memory(ves_reader *reader,
                        const void *block); /* false, and the failure noted, when block is NULL */
 ves_mark ves_reader_mark(const ves_reader *reader, const ves_node *node);
@@ -139,6 +145,9 @@ bool ves_reader_varies(const ves_reader *reader, const ves_formula *formula);
 int ves_reader_append(ves_reader *reader, const ves_formula *formula);
 /* One number as key says; NULL when it is not one. */
 const ves_formula *ves_reader_number(ves_reader *reader, const ves_node *node, const ves_key *key);
+/* Appends one number as key says, with its range, if the key has one; a hole when it is not a number, so that
+ * places stay consecutive. Returns its index. */
+int ves_reader_place(ves_reader *reader, const ves_node *node, const ves_key *key);
 /* A number that is known before any variable is; NAN after an error. */
 double ves_reader_constant(ves_reader *reader, const ves_node *node, const ves_key *key);
 long ves_reader_count(ves_reader *reader, const ves_node *node, const ves_key *key);

@@ -121,7 +121,7 @@ static const ves_entry scale_keys[] = {
 
 static const ves_entry solve_keys[] = {
     {{"unknown", KIND(VES_NEW), .required = true, .about = "the name of the number to be found"}, "unknown: h", NULL},
-    {{"in", KIND(VES_SPAN), .required = true, .about = "[from, to]: where it lies; the equation holds once in between"}, "in: [20 mm, 80 mm]", NULL},
+    {{"in", KIND(VES_SPAN), .required = true, .about = "[from, to]: where it lies; in between the equation holds once, and every number keeps its range"}, "in: [20 mm, 80 mm]", NULL},
     {{"equation", KIND(VES_EQUATION), .required = true, .about = "what it makes true, for every candidate"}, "equation: volume == 150 ml", NULL},
     END};
 

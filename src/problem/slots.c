@@ -260,8 +260,8 @@ static bool read_bounds(slots *s, const ves_node *node, const char *name, int co
 static void empty_range(slots *s, const ves_node *node, double low, double high)
 {
     char a[32], b[32];
-    ves_reader_show(low, a);
-    ves_reader_show(high, b);
+    ves_number_text(low, a);
+    ves_number_text(high, b);
     ves_reader_error(s->reader, VES_RANGE, node, "empty range [%s, %s]; %s", a, b,
                      low > high ? "swap them?" : "a number that stays fixed is a parameter");
 }
@@ -284,9 +284,9 @@ static void check_start(slots *s, const ves_node *node, double start, const doub
 {
     char text[3][32];
     if (isnan(start) || (start >= bound[0] && start <= bound[2])) return;
-    ves_reader_show(start, text[0]);
-    ves_reader_show(bound[0], text[1]);
-    ves_reader_show(bound[2], text[2]);
+    ves_number_text(start, text[0]);
+    ves_number_text(bound[0], text[1]);
+    ves_number_text(bound[2], text[2]);
     ves_reader_error(s->reader, VES_RANGE, node, "start %s is outside [%s, %s]", text[0], text[1], text[2]);
 }
 

@@ -151,7 +151,10 @@ static ves_status start_measure(study *s)
     ves_run *run = s->run;
     VES_TRY(ves_design_init(s->problem, &run->arena, &run->start));
     VES_TRY(measure(s, run->start.x, 0, &run->start));
-    if (run->start.status != VES_OK) {
+    if (run->start.status == VES_OUTSIDE) {
+        run->change = NAN;
+        ves_plan_outside(s->plan[0], "the start design cannot be measured", s->diag);
+    } else if (run->start.status != VES_OK) {
         run->change = NAN;
         ves_diag_add(s->diag, VES_WARNING, run->start.status, (ves_mark){0},
                      "the start design cannot be measured: %s", ves_status_text(run->start.status));
