@@ -1,0 +1,77 @@
+/* Measures from shared objects, as a user meets them. */
+#include <criterion/criterion.h>
+#include <criterion/new/assert.h>
+
+#include "program.h"
+
+static void build_plugin(const char *name, const char *defines)
+{
+    char command[1200];
+    snprintf(command, sizeof command,
+             "cc -std=c17 -shared -fPIC %s -I" VESICA_SOURCE "/include -o %s " VESICA_SOURCE
+             "/examples/plugin/sphericity.c -lm",
+             defines, name);
+    cr_assert(system(command) == 0, "%s", command);
+}
+
+Test(cli_plugin, a_plugin_is_a_measure_like_any_other)
+{
+    root_make();
+    build_plugin("good.so", "");
+    expect(vesica(NULL, "list measures --plugin good.so"), 0, "sphericity", NULL, "list");
+    expect(vesica(NULL, "explain sphericity --plugin ./good.so"), 0, "sphericity", NULL, "explain");
+    expect(vesica(NULL, "eval " PROBLEMS "bottle.yaml --set maximize=sphericity"), 2, NULL, "sphericity",
+           "without it");
+    outcome o =
+        vesica(NULL, "eval " PROBLEMS "bottle.yaml --set maximize=sphericity --plugin good.so --json");
+    json j = json_of(o.out);
+    /* V = pi / 4, A = 1.5 pi */
+    double V = 0.78539816339744831, A = 4.71238898038468986,
+           want = cbrt(36 * 3.14159265358979324 * V * V) / A;
+    cr_assert(fabs(number(&j, "objective", NULL) - want) < 1e-13, "got %.17g, want %.17g",
+              number(&j, "objective", NULL), want);
+    json_done(&j);
+    done(&o);
+    expect(vesica(NULL, "list measures --plugin good.so --plugin ./good.so"), 2, NULL,
+           "there is one of that name", "twice");
+    write_file(
+        "old.c",
+        "const struct { int abi; long size; const char *name; const void *measure; } ves_plugin_entry = "
+        "{99, 8, \"old\", 0};\n");
+    cr_assert(system("cc -shared -fPIC -o old.so old.c && cc -shared -fPIC -x c -o empty.so /dev/null") == 0);
+    expect(vesica(NULL, "list measures --plugin old.so"), 3, NULL, "built for interface 99", "ABI");
+    expect(vesica(NULL, "list measures --plugin empty.so"), 2, NULL, "no ves_plugin_entry", "no entry");
+    root_remove();
+}
+
+/* `entry` and `measure` are C: what stands in the braces of ves_plugin and of one ves_measure. */
+static void refuse_plugin(const char *entry, const char *measure, int code, const char *want)
+{
+    char text[1500];
+    snprintf(
+        text, sizeof text,
+        "#include <vesica/measure.h>\n"
+        "static ves_status eval(const ves_measure_input *i, double *v) { *v = i->samples; return VES_OK; }\n"
+        "static const ves_measure m = {.about = \"a\", .unit = \"1\", .surface = VES_X, .eval = eval, %s};\n"
+        "static const ves_measure *const list[] = {&m, NULL};\n"
+        "const ves_plugin ves_plugin_entry = {.abi = VES_ABI, .name = \"bad\", .measure = list, %s};\n",
+        measure, entry);
+    write_file("bad.c", text);
+    cr_assert(system("cc -std=c17 -w -shared -fPIC -I" VESICA_SOURCE "/include -o bad.so bad.c") == 0, "%s",
+              text);
+    expect(vesica(NULL, "list measures --plugin bad.so"), code, NULL, want, want);
+}
+
+Test(cli_plugin, a_plugin_that_is_not_sound_is_refused)
+{
+    static const char size[] = ".size = sizeof(ves_measure)", name[] = ".name = \"mine\"";
+    root_make();
+    refuse_plugin(".size = sizeof(ves_measure) + 8", name, 3, "was built for a newer vesica");
+    refuse_plugin(".size = sizeof(ves_measure) - 8", name, 2, "does not say how large its measures are");
+    refuse_plugin(".size = 0", name, 2, "does not say how large its measures are");
+    refuse_plugin(".size = sizeof(ves_measure), .measure = NULL", name, 2, "lacks its name or its list");
+    refuse_plugin(size, ".name = \"area\"", 2, "\"area\" from outside has the name of a built-in one");
+    refuse_plugin(size, ".name = \"mine\", .eval = NULL", 2, "note: it is in the plugin \"bad.so\"");
+    refuse_plugin(size, ".name = \"mine\", .surface = 1 << 12", 2, "this version of vesica does not know");
+    root_remove();
+}
