@@ -64,6 +64,17 @@ void ves_reader_settings(ves_reader *reader, const ves_fields *root)
     ves_reader_quadrature(reader, ves_fields_find(root, "quadrature"));
 }
 
+/* Keys given twice: of each the first holds, so that all other mistakes are found too. What an alias stands
+ * for is looked at where it is written. */
+static void find_repeats(ves_reader *reader, const ves_node *node)
+{
+    for (int k = 0; k < node->count + node->repeats; k++) {
+        if (k >= node->count)
+            ves_reader_error(reader, VES_SYNTAX, node->key[k], "key \"%s\" given twice", node->key[k]->text);
+        if (!node->item[k]->alias) find_repeats(reader, node->item[k]);
+    }
+}
+
 static ves_status read_root(ves_reader *reader, const ves_node *root)
 {
     ves_fields fields;
@@ -75,6 +86,7 @@ static ves_status read_root(ves_reader *reader, const ves_node *root)
                          "a problem file is a mapping of keys, beginning with vesica: 1");
     } else if (is_format(reader, root) &&
                ves_fields_read(reader, root, ves_schema_root.table, "problem", &fields)) {
+        find_repeats(reader, root);
         read_sections(reader, &fields);
         if (reader->status != VES_MEMORY) ves_reader_finish(reader, &fields);
     }

@@ -194,7 +194,27 @@ static int by_text(const void *a, const void *b)
     return order ? order : (x->begin > y->begin) - (x->begin < y->begin);
 }
 
-static void check_duplicates(builder *b, const ves_node *map)
+/* Pairs first, then those whose key was given before, both in the order of the file. */
+static void put_aside(builder *b, ves_node *map)
+{
+    const ves_node **key = ves_arena_take(b->arena, (size_t)map->count, sizeof *key);
+    const ves_node **item = ves_arena_take(b->arena, (size_t)map->count, sizeof *item);
+    int count = 0, all = map->count;
+    if (!key || !item) {
+        fail(b, VES_MEMORY, 0, 0, "");
+        return;
+    }
+    for (int repeat = 0; repeat < 2; repeat++) {
+        for (int k = 0; k < all; k++)
+            if (map->key[k]->repeat == repeat) key[count] = map->key[k], item[count++] = map->item[k];
+        if (!repeat) map->count = count;
+    }
+    map->repeats = all - map->count;
+    map->key = key;
+    map->item = item;
+}
+
+static void find_repeats(builder *b, ves_node *map)
 {
     const ves_node **sorted = ves_arena_take(b->arena, (size_t)map->count, sizeof(ves_node *));
     if (!sorted) {
@@ -203,12 +223,12 @@ static void check_duplicates(builder *b, const ves_node *map)
     }
     if (map->count) memcpy(sorted, map->key, (size_t)map->count * sizeof(ves_node *));
     qsort(sorted, (size_t)map->count, sizeof(ves_node *), by_text);
+    bool any = false;
     for (int k = 1; k < map->count; k++) {
         if (strcmp(sorted[k - 1]->text, sorted[k]->text)) continue;
-        ves_diag_add(b->diag, VES_ERROR, VES_SYNTAX, ves_node_mark(b->script, sorted[k]),
-                     "key \"%s\" given twice", sorted[k]->text);
-        b->status = VES_SYNTAX;
+        ((ves_node *)sorted[k])->repeat = any = true;
     }
+    if (any) put_aside(b, map);
 }
 
 /* YAML's merge key: `<<: *other` brings in the pairs of other that are not given here. */
@@ -222,7 +242,7 @@ static void merge(builder *b, ves_node *map)
         fail(b, VES_SYNTAX, map->key[at]->begin, 2, "<< brings in another mapping, as in <<: *name");
         return;
     }
-    int room = map->count - 1 + other->count, count = 0;
+    int room = map->count - 1 + other->count + map->repeats, count = 0;
     const ves_node **key = ves_arena_take(b->arena, (size_t)room, sizeof *key);
     const ves_node **item = ves_arena_take(b->arena, (size_t)room, sizeof *item);
     if (!key || !item) {
@@ -237,6 +257,8 @@ static void merge(builder *b, ves_node *map)
         for (int i = 0; i < own && !given; i++) given = !strcmp(key[i]->text, other->key[k]->text);
         if (!given) key[count] = other->key[k], item[count++] = other->item[k];
     }
+    for (int k = 0; k < map->repeats; k++)
+        key[count + k] = map->key[map->count + k], item[count + k] = map->item[map->count + k];
     map->key = key;
     map->item = item;
     map->count = count;
@@ -280,7 +302,7 @@ static void end(builder *b, const yaml_event_t *event)
     if (!fill(b, l.node, l.first)) return;
     b->pendings = l.first;
     if (l.node->kind == VES_NODE_MAP) {
-        check_duplicates(b, l.node);
+        find_repeats(b, l.node);
         merge(b, l.node);
     }
     push(b, l.node);
@@ -418,7 +440,7 @@ static bool has_word(const char *text, const char *word)
 bool ves_node_mentions(const ves_node *node, const char *word)
 {
     if (node->kind == VES_NODE_WORD) return has_word(node->text, word);
-    for (int k = 0; k < node->count; k++)
+    for (int k = 0; k < node->count + node->repeats; k++)
         if (ves_node_mentions(node->item[k], word)) return true;
     return false;
 }

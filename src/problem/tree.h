@@ -15,8 +15,10 @@ struct ves_node {
     bool plain;            /* WORD: not quoted */
     bool flow;             /* LIST, MAP: in brackets */
     bool alias;            /* stands here through *name */
+    bool repeat;           /* a key that its mapping has already */
     const char *text;      /* WORD */
     int count;             /* LIST: items, MAP: pairs */
+    int repeats;           /* MAP: pairs after those, whose keys were given before; the reader complains */
     const ves_node **key;  /* MAP: words */
     const ves_node **item; /* LIST: items, MAP: values */
     size_t begin, end;     /* bytes of the text as run */
