@@ -142,7 +142,7 @@ Test(formula_text, syntax_errors_point_at_the_place_and_help)
         {"2 + 0xff", VES_SYNTAX, 4, 4, "hexadecimal numbers are not read; write a decimal number"},
         {"1_000", VES_SYNTAX, 0, 5, "digits are not grouped; write 1000, not 1_000"},
         {"1.2.3", VES_SYNTAX, 0, 4, "a number has one decimal point"},
-        {"1e999", VES_SYNTAX, 0, 5, "this number is too large"},
+        {"1e999", VES_SYNTAX, 0, 5, "this number is too large: numbers end at 1.8e308"},
         {"2a", VES_SYNTAX, 1, 1, "an operator is missing before \"a\": write 2*a"},
         {"2.5 pi", VES_SYNTAX, 4, 2, "an operator is missing before \"pi\": write 2.5*pi"},
         {"3 sin(v)", VES_SYNTAX, 2, 3, "an operator is missing before \"sin\": write 3*sin"},

@@ -110,7 +110,8 @@ static void read_number(ves_lexer *lexer)
         copy[length] = 0;
         lexer->token = VES_TOKEN_NUMBER;
         lexer->end = lexer->begin + length;
-        if (!ves_text_number(copy, &lexer->number)) bad(lexer, lexer->end, "this number is too large");
+        if (!ves_text_number(copy, &lexer->number))
+            bad(lexer, lexer->end, "this number is too large: numbers end at 1.8e308");
     }
 }
 

@@ -182,9 +182,14 @@ static void check_range(ves_reader *reader, const ves_node *node, const ves_key 
     char limits[96], got[32];
     ves_number_text(value, got);
     ves_limit_text(key->min, key->max, limits);
-    if (!isfinite(value) && constant) {
+    if (isinf(value) && constant) {
+        ves_reader_error(reader, VES_RANGE, node,
+                         "\"%s\" has no finite value: a division by zero, or beyond 1.8e308", key->name);
+    } else if (!isfinite(value) && constant) {
         if (!isnan(value) || ves_formula_is_constant(formula, NULL))
-            ves_reader_error(reader, VES_RANGE, node, "\"%s\" is not a finite number: %s", key->name, got);
+            ves_reader_error(reader, VES_RANGE, node,
+                             "\"%s\" has no value: 0/0, or a root or a logarithm of a negative number",
+                             key->name);
     } else if (!inside(key, value)) {
         ves_reader_error(reader, VES_RANGE, node, "\"%s\" must be %s, got %s%s", key->name, limits, got,
                          constant ? "" : " at the start");
@@ -278,7 +283,12 @@ long ves_reader_count(ves_reader *reader, const ves_node *node, const ves_key *k
     double value = ves_reader_constant(reader, node, &plain);
     if (isnan(value)) return 0;
     if (value == floor(value) && fabs(value) <= 9007199254740992.0) return (long)value;
-    ves_reader_error(reader, VES_RANGE, node, "\"%s\" must be a whole number, found \"%s\"", key->name,
-                     node->text);
+    if (value == floor(value))
+        ves_reader_error(reader, VES_RANGE, node,
+                         "\"%s\" is beyond what a whole number may be (2^53), found \"%s\"", key->name,
+                         node->text);
+    else
+        ves_reader_error(reader, VES_RANGE, node, "\"%s\" must be a whole number, found \"%s\"", key->name,
+                         node->text);
     return 0;
 }
