@@ -265,7 +265,8 @@ Test(study, the_trace_has_a_line_for_each_evaluation)
 {
     root_make();
     size_t length;
-    ves_run_options options = {.evaluations = 500, .jobs = 2, .files = true, .out = place("traced")};
+    ves_run_options options = {
+        .evaluations = 500, .jobs = 2, .files = true, .trace = VES_TRACE_ALL, .out = place("traced")};
     trial t = run_with(BOTTLE, &options, NULL);
     char *text = slurp(place("traced/trace.jsonl"), &length);
     long lines = 0, failed = 0;

@@ -13,7 +13,9 @@ extern "C" {
 
 typedef struct ves_run ves_run;
 
-typedef enum ves_trace { VES_TRACE_ALL, VES_TRACE_ACCEPTED, VES_TRACE_NONE } ves_trace;
+/* Which candidates trace.jsonl keeps. SHORT: each new best, and of the accepted ones ever fewer: each of the
+ * first 2500, then every second until 2500 more stand there, then every fourth, and so on. */
+typedef enum ves_trace { VES_TRACE_SHORT, VES_TRACE_ALL, VES_TRACE_ACCEPTED, VES_TRACE_NONE } ves_trace;
 
 typedef struct ves_run_options {
     bool seeded; /* seed holds; else the problem's */
@@ -39,8 +41,8 @@ typedef struct ves_run_hooks {
 } ves_run_hooks;
 
 /* diag gets warnings and errors. VES_OK: see interrupted, feasible, passed. VES_IO: the result holds, but its
- * folder could not be made or filled. VES_USAGE: `out` is there already. Whenever there is no result, *run is
- * NULL. */
+ * folder could not be made or filled. VES_USAGE, VES_IO without a result: `out` cannot be used; nothing was
+ * searched. Whenever there is no result, *run is NULL. */
 ves_status ves_run_create(const ves_problem *problem, const ves_run_options *options,
                           const ves_run_hooks *hooks, ves_run **run, ves_diag *diag);
 void ves_run_destroy(ves_run *run);
@@ -49,9 +51,11 @@ void ves_run_destroy(ves_run *run);
  * NULL its objective with the sign of the file, its largest violation, its measures[measures]. Owned by the
  * run. */
 const double *ves_run_best(const ves_run *run, double *objective, double *violation, const double **measures);
-bool ves_run_feasible(const ves_run *run);      /* and proved on a finer grid, without crossing itself */
-bool ves_run_passed(const ves_run *run);        /* every `expect` of the file held */
-const char *ves_run_stop(const ves_run *run);   /* a sentence: why it ended */
+bool ves_run_feasible(const ves_run *run);    /* and proved on a finer grid, without crossing itself */
+bool ves_run_passed(const ves_run *run);      /* every `expect` of the file held */
+const char *ves_run_stop(const ves_run *run); /* a sentence: why it ended */
+int ves_run_notes(const ves_run *run);        /* sentences: what failed a check, what was left out and why */
+const char *ves_run_note(const ves_run *run, int index);
 const char *ves_run_folder(const ves_run *run); /* NULL: none */
 
 #ifdef __cplusplus

@@ -106,9 +106,9 @@ static bool take_progress(app *a, const char *value)
 
 static bool take_trace(app *a, const char *value)
 {
-    int word = ves_words_find("all|accepted|none", value);
+    int word = ves_words_find("short|all|accepted|none", value);
     a->options.trace = (ves_trace)word;
-    return word >= 0 || wrong(a, "--trace is all, accepted or none, not \"%s\"", value);
+    return word >= 0 || wrong(a, "--trace is short, all, accepted or none, not \"%s\"", value);
 }
 
 static bool take_colour(app *a, const char *value)
@@ -170,7 +170,7 @@ static const option table[] = {
     {"jobs", "N", "threads (all of the machine); the result does not depend on it", take_jobs},
     {"out", "DIR", "write into this folder, new or empty for a run", take_out},
     {"progress", "auto|plain|none", "how to show it on stderr", take_progress},
-    {"trace", "all|accepted|none", "which candidates trace.jsonl keeps", take_trace},
+    {"trace", "short|all|accepted|none", "which candidates trace.jsonl keeps; short (unless said): each new best, of the accepted ones ever fewer", take_trace},
     {"test", NULL, "with the budget and the checks that `test:` gives", take_test},
     {"no-files", NULL, "make no run folder", take_no_files},
     {"json", NULL, "one JSON object on stdout", take_json},

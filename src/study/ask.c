@@ -25,6 +25,16 @@ const char *ves_run_stop(const ves_run *run)
     return run->stop;
 }
 
+int ves_run_notes(const ves_run *run)
+{
+    return run->notes;
+}
+
+const char *ves_run_note(const ves_run *run, int index)
+{
+    return run->note[index];
+}
+
 const char *ves_run_folder(const ves_run *run)
 {
     return run->folder;

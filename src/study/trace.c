@@ -10,9 +10,13 @@
  * variables has about 300 bytes. */
 enum { FIXED = 400, EACH = 24 };
 
+/* Lines of a short trace before it takes but every second of what it took. */
+enum { THIN = 2500 };
+
 ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, ves_arena *arena)
 {
     tracer->path = path;
+    tracer->best = (ves_verdict){.status = VES_NO_NUMBER};
     tracer->room = (size_t)(FIXED + EACH * tracer->problem->variables);
     tracer->line = ves_arena_take(arena, tracer->room, 1);
     if (!tracer->line) return VES_MEMORY;
@@ -64,10 +68,26 @@ static size_t compose(const ves_tracer *tracer, const ves_record *r, char *at)
     return (size_t)(at - begin);
 }
 
+/* Decided by the order of the records alone: the same lines for any number of threads. */
+static bool is_wanted(ves_tracer *tracer, const ves_record *r)
+{
+    ves_verdict verdict = {.status = r->status, .value = r->value, .violation = r->violation};
+    if (tracer->which == VES_TRACE_ALL) return true;
+    if (tracer->which == VES_TRACE_ACCEPTED) return r->accepted;
+    bool best = ves_verdict_better(&verdict, &tracer->best, VES_FEASIBLE), turn = false;
+    if (best) tracer->best = verdict;
+    if (r->accepted) {
+        long halvings = tracer->kept / THIN;
+        turn = halvings < 62 && tracer->accepted++ % (1L << halvings) == 0;
+        tracer->kept += turn;
+    }
+    return best || turn;
+}
+
 void ves_tracer_write(ves_tracer *tracer, const ves_record *record)
 {
     if (!tracer->out || tracer->status != VES_OK) return;
-    if (tracer->which == VES_TRACE_ACCEPTED && !record->accepted) return;
+    if (!is_wanted(tracer, record)) return;
     size_t length = compose(tracer, record, tracer->line);
     if (fwrite(tracer->line, 1, length, tracer->out) != length) complain(tracer);
     if (record->stage != tracer->stage && fflush(tracer->out)) complain(tracer);

@@ -1,4 +1,4 @@
-/* Trace: one line of JSON for each candidate of a search, written as they come. */
+/* Trace: one line of JSON for a candidate of a search, written as they come. */
 #ifndef VES_STUDY_TRACE_H
 #define VES_STUDY_TRACE_H
 
@@ -12,7 +12,9 @@ typedef struct ves_tracer {
     const char *path;
     FILE *out; /* NULL: nothing is written */
     ves_trace which;
-    int stage; /* of the last line */
+    int stage;           /* of the last line */
+    ves_verdict best;    /* so far; of the search, not of what is kept */
+    long accepted, kept; /* accepted candidates seen; those of them that stand in a short trace */
     ves_diag *diag;
     char *line; /* one line's room */
     size_t room;
