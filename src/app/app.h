@@ -98,6 +98,6 @@ void app_screen_design(const ves_problem *problem, const ves_design *design, FIL
 const char *app_screen_number(double value, char buffer[32]);
 const char *app_screen_thousands(long value, char buffer[32]);
 const char *app_screen_time(double seconds, char buffer[32]);
-const char *app_screen_plural(int count, const char *one, const char *many, char buffer[64]);
+const char *app_screen_plural(long count, const char *one, const char *many, char buffer[64]);
 
 #endif

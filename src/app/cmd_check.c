@@ -91,8 +91,14 @@ static void heading(const checked *c)
     int equal = 0;
     char v[64], e[64], i[64];
     for (int k = 0; k < p->constraints; k++) equal += p->constraint[k].relation == VES_EQUAL;
-    printf("%s: ok\n  %s\n  %s, %s, %s\n\n", p->path, p->title,
-           app_screen_plural(p->variables, "variable", "variables", v),
+    ves_status wrong = c->run->any ? c->run->proof : c->run->best.status;
+    printf("%s: ", p->path);
+    if (wrong == VES_OK)
+        fputs("ok", stdout);
+    else
+        printf("the file can be read, but its start design %s: %s",
+               c->run->any ? "does not pass the checks" : "cannot be measured", ves_status_text(wrong));
+    printf("\n  %s\n  %s, %s, %s\n\n", p->title, app_screen_plural(p->variables, "variable", "variables", v),
            app_screen_plural(equal, "equality", "equalities", e),
            app_screen_plural(p->constraints - equal, "inequality", "inequalities", i));
 }

@@ -12,6 +12,9 @@ static int unknown_format(app *a, const char *word)
     static const char later[] = "glb|step|inp", pictures[] = "png|svg|pdf";
     const char *name[NAMES];
     int count = 0;
+    if (!*word)
+        return app_fail(a, VES_USAGE, "a format is missing in --to \"%s\" (vesica list formats)",
+                        a->options.to);
     if (ves_words_find(later, word) >= 0)
         return app_fail(a, VES_ABSENT, "this version of vesica (%s) does not write %s yet", VESICA_VERSION,
                         word);
@@ -33,6 +36,9 @@ static int formats_read(app *a, const ves_format **format, int *count)
         if (comma) *comma = 0;
         const ves_format *f = ves_format_find(word);
         if (!f) return unknown_format(a, word);
+        bool known = false; /* each is written once, however often it is named */
+        for (int k = 0; k < *count; k++) known = known || format[k] == f;
+        if (known) continue;
         if (*count == WORDS) return app_fail(a, VES_USAGE, "too many formats in \"%s\"", a->options.to);
         format[(*count)++] = f;
     }
@@ -43,12 +49,10 @@ static int formats_read(app *a, const ves_format **format, int *count)
 static char *stem_of(app *a, const char *name, int *code)
 {
     const char *folder = a->options.out;
-    if (!folder) return ves_arena_text(&a->arena, name, strlen(name));
-    if (ves_folder_open(folder, &a->arena, a->diag) != VES_OK) {
-        *code = APP_MISSING;
-        return NULL;
-    }
-    return ves_folder_path(folder, name, &a->arena);
+    ves_status status = folder ? ves_folder_open(folder, &a->arena, a->diag) : VES_OK;
+    *code = app_code(status);
+    if (status != VES_OK) return NULL;
+    return folder ? ves_folder_path(folder, name, &a->arena) : ves_arena_text(&a->arena, name, strlen(name));
 }
 
 static int write_all(app *a, ves_figure *figure, const char *stem, const ves_format **format, int count)

@@ -40,10 +40,11 @@ const char *app_screen_time(double seconds, char buffer[32])
     return buffer;
 }
 
-const char *app_screen_plural(int count, const char *one, const char *many, char buffer[64])
+const char *app_screen_plural(long count, const char *one, const char *many, char buffer[64])
 {
+    char number[32];
     if (count)
-        snprintf(buffer, 64, "%d %s", count, count == 1 ? one : many);
+        snprintf(buffer, 64, "%s %s", app_screen_thousands(count, number), count == 1 ? one : many);
     else
         snprintf(buffer, 64, "no %s", many);
     return buffer;
@@ -214,13 +215,13 @@ static void expectations(const ves_run *run, app_table *t)
 
 static void effort(const ves_run *run, app_table *t)
 {
-    char evaluations[32], gradients[32], time[32];
+    char evaluations[64], gradients[64], time[32];
     if (!run->searched) return;
     app_table_cell(t, "searched");
-    app_table_cell(t, "%s evaluations, %s gradients, %s, seed %llu",
-                   app_screen_thousands(run->evaluations, evaluations),
-                   app_screen_thousands(run->gradients, gradients), app_screen_time(run->times.search, time),
-                   (unsigned long long)run->seed);
+    app_table_cell(t, "%s, %s, %s, seed %llu",
+                   app_screen_plural(run->evaluations, "evaluation", "evaluations", evaluations),
+                   app_screen_plural(run->gradients, "gradient", "gradients", gradients),
+                   app_screen_time(run->times.search, time), (unsigned long long)run->seed);
     app_table_cell(t, "stopped");
     app_table_cell(t, "%s", run->stop);
 }

@@ -20,8 +20,8 @@ static bool is_list(ves_reader *reader, const ves_node *node, const char *name, 
 {
     if (node->kind == VES_NODE_LIST && (count < 0 || node->count == count)) return true;
     if (node->kind == VES_NODE_LIST)
-        ves_reader_error(reader, VES_SYNTAX, node, "\"%s\" must be %s, found %d entries%s", name, example,
-                         node->count,
+        ves_reader_error(reader, VES_SYNTAX, node, "\"%s\" must be %s, found %d %s%s", name, example,
+                         node->count, node->count == 1 ? "entry" : "entries",
                          torn(node) ? "; a formula with commas must be quoted: \"max(a, b)\"" : "");
     else
         ves_reader_error(reader, VES_SYNTAX, node, "\"%s\" must be %s", name, example);

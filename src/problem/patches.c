@@ -213,8 +213,8 @@ static bool check_grid(ves_reader *reader, const ves_node *node, ves_patch_def *
     for (int k = 1; k < patch->rows; k++) {
         int count = node->item[k]->kind == VES_NODE_LIST ? node->item[k]->count : 0;
         if (count == patch->columns) continue;
-        ves_reader_error(reader, VES_SYNTAX, node->item[k], "this row has %d points, the first has %d", count,
-                         patch->columns);
+        ves_reader_error(reader, VES_SYNTAX, node->item[k], "this row has %d point%s, the first has %d",
+                         count, count == 1 ? "" : "s", patch->columns);
         return false;
     }
     return true;

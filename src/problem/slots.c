@@ -238,8 +238,8 @@ static bool read_bounds(slots *s, const ves_node *node, const char *name, int co
     const char *form = count == 3 ? "[min, start, max]" : "[from, to]";
     if (node->kind != VES_NODE_LIST || node->count != count) {
         if (node->kind == VES_NODE_LIST)
-            ves_reader_error(r, VES_SYNTAX, node, "\"%s\" must be %s, found %d entries", name, form,
-                             node->count);
+            ves_reader_error(r, VES_SYNTAX, node, "\"%s\" must be %s, found %d %s", name, form, node->count,
+                             node->count == 1 ? "entry" : "entries");
         else
             ves_reader_error(r, VES_SYNTAX, node, "\"%s\" must be %s", name, form);
         return false;

@@ -228,7 +228,8 @@ static ves_status lower(anneal *a)
             return VES_OK;
         }
     }
-    ves_session_stop(session, "anneal: its budget of %ld evaluations is spent", a->budget);
+    ves_session_stop(session, "anneal: its budget of %ld evaluation%s is spent", a->budget,
+                     a->budget == 1 ? "" : "s");
     if (a->options->c_end < 1)
         ves_session_note(
             session,

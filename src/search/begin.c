@@ -44,12 +44,12 @@ static ves_status look(ves_session *session, ves_asker *asker, ves_point *start)
         ves_session_note(session, "the start cannot be measured (%s), and the budget allows no other point",
                          reason);
     else if (start->verdict.status != VES_OK)
-        ves_session_note(session, "neither the start (%s) nor any of %ld random points can be measured",
-                         reason, k);
+        ves_session_note(session, "neither the start (%s) nor any of %ld random point%s can be measured",
+                         reason, k, k == 1 ? "" : "s");
     else
-        ves_session_note(
-            session, "the start cannot be measured (%s); began at the first of %ld random points that can",
-            reason, k);
+        ves_session_note(session,
+                         "the start cannot be measured (%s); began at random point %ld, the first that can",
+                         reason, k);
     return VES_OK;
 }
 

@@ -122,8 +122,8 @@ static ves_status cluster(clusters *c, ves_session *session, const ves_point *be
     ves_asker_destroy(&asker);
     if (!c->hits[0]) c->hits[0] = 1;
     if (c->skipped && session->best.verdict.status == VES_OK)
-        ves_session_note(session, "the budget left no proofs for %d more ends: they are not listed",
-                         c->skipped);
+        ves_session_note(session, "the budget left no proofs for %d more end%s: %s not listed", c->skipped,
+                         c->skipped == 1 ? "" : "s", c->skipped == 1 ? "it is" : "they are");
     return status == VES_INTERRUPTED ? VES_OK : status;
 }
 

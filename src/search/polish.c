@@ -126,11 +126,11 @@ static void note_saddles(polish *p)
                       : halves < saddles ? "left it, not always both ways"
                                          : "left it one way";
     ves_session_note(p->session,
-                     "%d of %d polishes met a saddle (value %.9g): found a direction of negative curvature "
+                     "%d of %d polish%s met a saddle (value %.9g): found a direction of negative curvature "
                      "(eigenvalue %.3g, "
                      "mostly %s); %s",
-                     met, p->tasks, first->height, first->curvature, name_variable(p->session, first->mostly),
-                     stuck ? "not every one could be left" : way);
+                     met, p->tasks, p->tasks == 1 ? "" : "es", first->height, first->curvature,
+                     name_variable(p->session, first->mostly), stuck ? "not every one could be left" : way);
 }
 
 /* The sentence of the best end's task. */

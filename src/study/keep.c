@@ -71,9 +71,9 @@ static void fill_log(const keeper *k, FILE *out)
     char text[MESSAGE];
     line(out, run->problem->path, "");
     line(out, "started ", run->times.started);
-    snprintf(text, sizeof text, "seed %llu, %d jobs, %d x %d nodes a patch, %ld evaluations",
-             (unsigned long long)run->seed, run->jobs, run->quadrature[0], run->quadrature[1],
-             run->evaluations);
+    snprintf(text, sizeof text, "seed %llu, %d job%s, %d x %d nodes a patch, %ld evaluation%s",
+             (unsigned long long)run->seed, run->jobs, run->jobs == 1 ? "" : "s", run->quadrature[0],
+             run->quadrature[1], run->evaluations, run->evaluations == 1 ? "" : "s");
     line(out, text, "");
     for (int i = 0; i < ves_diag_count(k->diag); i++) {
         ves_diag_text(k->diag, i, text, sizeof text);

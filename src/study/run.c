@@ -9,7 +9,7 @@
 #include "study/keep.h"
 #include "study/trace.h"
 
-enum { JOBS_MOST = 256, SAMPLED_LEVELS = 2 };
+enum { JOBS_MOST = 256, SENTENCE = 200 };
 
 /* A grid that changes a measure by more than this is worth a word. */
 static const double UNSETTLED = 1e-6;
@@ -29,6 +29,36 @@ typedef struct study {
     ves_status files; /* the first file that could not be written */
 } study;
 
+static ves_status complain(ves_diag *diag, ves_status status)
+{
+    return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "%s", ves_status_text(status));
+}
+
+/* Appends a sentence to what the result says of itself. */
+static ves_status note(study *s, const char *text)
+{
+    ves_run *run = s->run;
+    const char **list = ves_arena_take(&run->arena, (size_t)run->notes + 1, sizeof *list);
+    char *copy = ves_arena_text(&run->arena, text, strlen(text));
+    if (!list || !copy) return VES_MEMORY;
+    for (int k = 0; k < run->notes; k++) list[k] = run->note[k];
+    list[run->notes++] = copy;
+    run->note = list;
+    return VES_OK;
+}
+
+static ves_status keep_note(study *s, const char *text)
+{
+    return note(s, text) == VES_OK ? VES_OK : complain(s->diag, VES_MEMORY);
+}
+
+/* What is wrong with the design that the result shows is on the screen at once, and in the result. */
+static ves_status warn(study *s, ves_status why, const char *text)
+{
+    ves_diag_add(s->diag, VES_WARNING, why, (ves_mark){0}, "%s", text);
+    return keep_note(s, text);
+}
+
 static double seconds(clockid_t clock)
 {
     struct timespec now;
@@ -39,11 +69,6 @@ static double seconds(clockid_t clock)
 double ves_study_clock(void)
 {
     return seconds(CLOCK_MONOTONIC);
-}
-
-static ves_status complain(ves_diag *diag, ves_status status)
-{
-    return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "%s", ves_status_text(status));
 }
 
 /* --- making ready --- */
@@ -151,19 +176,22 @@ static ves_status start_measure(study *s)
     ves_run *run = s->run;
     VES_TRY(ves_design_init(s->problem, &run->arena, &run->start));
     VES_TRY(measure(s, run->start.x, 0, &run->start));
-    if (run->start.status == VES_OUTSIDE) {
+    char text[SENTENCE];
+    ves_status status = run->start.status;
+    if (status != VES_OK) {
         run->change = NAN;
-        ves_plan_outside(s->plan[0], "the start design cannot be measured", s->diag);
-    } else if (run->start.status != VES_OK) {
-        run->change = NAN;
-        ves_diag_add(s->diag, VES_WARNING, run->start.status, (ves_mark){0},
-                     "the start design cannot be measured: %s", ves_status_text(run->start.status));
-    } else if (run->change > UNSETTLED) {
-        ves_diag_add(s->diag, VES_WARNING, VES_COARSE, (ves_mark){0},
-                     "%d x %d nodes a patch still change a measure of the start design by %.1e of its size",
-                     run->quadrature[0], run->quadrature[1], run->change);
+        snprintf(text, sizeof text, "the start design cannot be measured: %s", ves_status_text(status));
+        if (status == VES_OUTSIDE)
+            ves_plan_outside(s->plan[0], "the start design cannot be measured", s->diag);
+        else
+            ves_diag_add(s->diag, VES_WARNING, status, (ves_mark){0}, "%s", text);
+        return run->searched ? VES_OK : keep_note(s, text); /* a search notes it itself */
     }
-    return VES_OK;
+    if (!(run->change > UNSETTLED)) return VES_OK;
+    snprintf(text, sizeof text,
+             "%d x %d nodes a patch still change a measure of the start design by %.1e of its size",
+             run->quadrature[0], run->quadrature[1], run->change);
+    return warn(s, VES_COARSE, text);
 }
 
 /* --- the folder: a disk that cannot be written does not stop the search --- */
@@ -298,13 +326,10 @@ static ves_status words_take(study *s, const ves_search_result *r)
 {
     ves_run *run = s->run;
     run->stop = ves_arena_text(&run->arena, r->stop, strlen(r->stop));
-    run->note = ves_arena_take(&run->arena, (size_t)r->notes, sizeof *run->note);
     run->temperature = ves_arena_take(&run->arena, (size_t)r->temperatures, sizeof *run->temperature);
-    if (!run->stop || !run->note || !run->temperature) return VES_MEMORY;
-    for (int k = 0; k < r->notes; k++)
-        if (!(run->note[k] = ves_arena_text(&run->arena, r->note[k], strlen(r->note[k])))) return VES_MEMORY;
+    if (!run->stop || !run->temperature) return VES_MEMORY;
+    for (int k = 0; k < r->notes; k++) VES_TRY(note(s, r->note[k]));
     for (int k = 0; k < r->temperatures; k++) run->temperature[k] = r->temperature[k];
-    run->notes = r->notes;
     run->temperatures = r->temperatures;
     return VES_OK;
 }
@@ -354,8 +379,10 @@ static ves_status prove(study *s)
     if (status != VES_OK) return complain(s->diag, status);
     if (verdict.status == VES_OK) return VES_OK;
     run->feasible = false;
-    ves_diag_add(s->diag, VES_WARNING, verdict.status, (ves_mark){0}, "%s", ves_status_text(verdict.status));
-    return VES_OK;
+    run->proof = verdict.status;
+    char text[SENTENCE];
+    snprintf(text, sizeof text, "the design did not pass its checks: %s", ves_status_text(verdict.status));
+    return warn(s, verdict.status, text);
 }
 
 static ves_status once(study *s)
@@ -423,7 +450,7 @@ static ves_status work(study *s)
     VES_TRY(plans_make(s));
     VES_TRY(start_measure(s));
     folder_begin(s);
-    if (s->files == VES_USAGE) return s->files; /* a slip, told before the search has cost anything */
+    if (s->files != VES_OK && s->options->out) return s->files; /* told before the search has cost anything */
     if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);
     VES_TRY(run->searched ? search(s) : once(s));
     run->finer_change = ves_design_change(s->problem, &run->best, &run->finer);

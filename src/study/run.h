@@ -50,6 +50,7 @@ struct ves_run {
     double change;                 /* relative, that the choice of the quadrature left; NAN: it was given */
     bool any;                      /* some design could be measured: best holds */
     bool feasible;                 /* ... and proved */
+    ves_status proof;              /* of a design measured once: why it did not pass its checks, or VES_OK */
     ves_design start, best, finer; /* finer: best on a grid twice as fine */
     double finer_change;
     long evaluations, gradients;
