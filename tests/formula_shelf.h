@@ -2,6 +2,7 @@
 #ifndef FORMULA_SHELF_H
 #define FORMULA_SHELF_H
 
+#include "formula/dimension.h"
 #include "formula/formula.h"
 
 #include <criterion/criterion.h>

@@ -423,3 +423,39 @@ Test(formula_text, random_texts_give_a_formula_or_an_error_inside_the_text)
     cr_expect(good > 500, "%d", good);
     ves_arena_destroy(&arena);
 }
+
+Test(formula_text, the_unit_that_a_text_uses)
+{
+    static const struct {
+        const char *text, *dim, *unit;
+        double factor;
+    } list[] = {
+        {"150 ml", "m^3", "ml", 1e-6},
+        {"volume == 150 ml", "m^3", "ml", 1e-6},
+        {"area < 85.95 cm^2", "m^2", "cm^2", 1e-4},
+        {"2*L + 3mm", "m", "mm", 1e-3},
+        {"t <= 2 kN/(m s) * 1", "kg/s^3", "kN/(m s)", 1000},
+        {"15 N/m + x", "kg/s^2", "N/m", 1},
+        {"r >= 3 mm and a < 2 cm^2", "m^2", "cm^2", 1e-4},
+        {"3*h", "s", NULL, 0},
+        {"3 m", "m^2", NULL, 0},
+        {"-20 deg", "1", "deg", 3.14159265358979324 / 180},
+        {"30 %", "1", "%", 0.01},
+        {"a*20 deg", "1", NULL, 0},
+        {"20 deg*a", "1", NULL, 0},
+        {"7", "1", NULL, 0},
+        {"", "m", NULL, 0},
+        {"3 $", "m", NULL, 0},
+    };
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
+        ves_dim dim;
+        char unit[VES_UNIT_TEXT] = "";
+        double factor = 0;
+        cr_assert(ves_dim_read(list[k].dim, &dim, NULL));
+        bool found = ves_unit_find(list[k].text, dim, unit, &factor);
+        cr_assert(found == (list[k].unit != NULL), "%s in \"%s\": %s", list[k].dim, list[k].text, unit);
+        if (!found) continue;
+        cr_assert(!strcmp(unit, list[k].unit), "\"%s\": got %s, want %s", list[k].text, unit, list[k].unit);
+        cr_assert(fabs(factor - list[k].factor) <= 1e-15 * list[k].factor, "%s: %.17g", unit, factor);
+    }
+}

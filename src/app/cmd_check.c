@@ -103,25 +103,6 @@ static void heading(const checked *c)
            app_screen_plural(p->constraints - equal, "inequality", "inequalities", i));
 }
 
-static void variables(const checked *c)
-{
-    const ves_problem *p = c->run->problem;
-    app_table t = {.align = "lrl"};
-    char low[32], high[32];
-    if (!p->variables) return;
-    app_table_cell(&t, "variable");
-    app_table_cell(&t, "start");
-    app_table_cell(&t, "range");
-    for (int k = 0; k < p->variables; k++) {
-        const ves_variable *v = &p->variable[k];
-        app_table_cell(&t, "%s", v->name);
-        app_table_number(&t, v->start);
-        app_table_cell(&t, "[%s, %s]", app_screen_number(v->min, low), app_screen_number(v->max, high));
-    }
-    app_table_print(&t, stdout);
-    fputc('\n', stdout);
-}
-
 static void costs(const checked *c)
 {
     const ves_run *run = c->run;
@@ -175,7 +156,7 @@ static int report(app *a, checked *c)
         json_print(c);
     } else {
         heading(c);
-        variables(c);
+        app_screen_variables(c->run, stdout);
         patches(c);
         printf("  start design\n\n");
         app_screen_design(c->run->problem, &c->run->best, stdout);

@@ -8,6 +8,10 @@
 /* A variable this near to its limit, relative to its range, lies on it. */
 static const double AT_LIMIT = 1e-6;
 
+/* Of what sets two optima apart: so many variables, if they differ by this part of the largest difference. */
+enum { OPTIMA = 8, DIFFERENCES = 3 };
+static const double APART = 0.1;
+
 const char *app_screen_number(double value, char buffer[32])
 {
     snprintf(buffer, 32, "%.7g", value);
@@ -50,36 +54,37 @@ const char *app_screen_plural(long count, const char *one, const char *many, cha
     return buffer;
 }
 
+/* A number in the units of the file; empty when it is none. */
+static void shown_cell(app_table *t, double value, const ves_shown *shown)
+{
+    app_table_number(t, value / shown->factor);
+}
+
 /* Decimals that show a millionth of the range: numbers of a column stand point under point, and what is
  * rounding beside the range is shown as 0. */
 static const char *in_range(double value, const ves_variable *v, char buffer[32])
 {
-    double decimals = 6 - floor(log10(v->max - v->min));
-    if (!(decimals >= 0 && decimals <= 12)) return app_screen_number(value, buffer);
-    snprintf(buffer, 32, "%.*f", (int)decimals, value);
+    double scale = v->shown.factor, decimals = 6 - floor(log10((v->max - v->min) / scale));
+    if (!(decimals >= 0 && decimals <= 12)) return app_screen_number(value / scale, buffer);
+    snprintf(buffer, 32, "%.*f", (int)decimals, value / scale);
     bool zero = !strpbrk(buffer, "123456789");
     if (zero && *buffer == '-') memmove(buffer, buffer + 1, strlen(buffer));
-    return buffer;
-}
-
-/* " m^2"; nothing where the file has no units. */
-static const char *unit_of(const ves_problem *problem, ves_dim dim, char buffer[64])
-{
-    char unit[48];
-    ves_dim_text(dim, unit);
-    bool plain = !problem->units || dim.any || !strcmp(unit, "1");
-    snprintf(buffer, 64, "%s%s", plain ? "" : " ", plain ? "" : unit);
     return buffer;
 }
 
 static void goal(const ves_problem *problem, const ves_design *best, const ves_design *start, FILE *out)
 {
     char a[32], b[32];
+    const ves_shown *shown = &problem->objective_shown;
     if (!problem->objective) return;
-    fprintf(out, "  %s %s   %s", problem->maximize ? "maximize" : "minimize", problem->objective_text,
-            isnan(best->objective) ? "no number" : app_screen_number(best->objective, a));
+    fprintf(out, "  %s %s   ", problem->maximize ? "maximize" : "minimize", problem->objective_text);
+    if (isnan(best->objective))
+        fputs("no number", out);
+    else
+        fprintf(out, "%s%s%s", app_screen_number(best->objective / shown->factor, a), *shown->unit ? " " : "",
+                shown->unit);
     if (start && !isnan(start->objective)) {
-        fprintf(out, "   start %s", app_screen_number(start->objective, b));
+        fprintf(out, "   start %s", app_screen_number(start->objective / shown->factor, b));
         double change = 100 * (best->objective / start->objective - 1);
         if (!start->feasible)
             fputs(", which violates a constraint", out); /* then the change says nothing */
@@ -91,7 +96,7 @@ static void goal(const ves_problem *problem, const ves_design *best, const ves_d
 
 static void constraints(const ves_problem *problem, const ves_design *design, FILE *out)
 {
-    app_table t = {.align = "lrrl"};
+    app_table t = {.align = "lrrll"};
     if (!problem->constraints) return;
     app_table_cell(&t, "constraint");
     app_table_cell(&t, "value");
@@ -99,12 +104,14 @@ static void constraints(const ves_problem *problem, const ves_design *design, FI
     app_table_end(&t);
     for (int k = 0; k < problem->constraints; k++) {
         const ves_sides *s = &design->side[k];
-        app_table_cell(&t, "%s", problem->constraint[k].text);
-        app_table_number(&t, s->value);
-        app_table_number(&t, s->limit);
+        const ves_constraint_def *c = &problem->constraint[k];
+        app_table_cell(&t, "%s", c->text);
+        shown_cell(&t, s->value, &c->shown);
+        shown_cell(&t, s->limit, &c->shown);
+        app_table_cell(&t, "%s", c->shown.unit);
         if (isnan(s->violation))
             app_table_cell(&t, "not measured");
-        else if (s->violation <= problem->constraint[k].within)
+        else if (s->violation <= c->within)
             app_table_cell(&t, "ok");
         else
             app_table_cell(&t, "VIOLATED by %.2g of its size", s->violation);
@@ -121,35 +128,44 @@ static const char *limit(const ves_variable *v, double x)
     return "";
 }
 
-static void variables(const ves_run *run, FILE *out)
+void app_screen_variables(const ves_run *run, FILE *out)
 {
     const ves_problem *p = run->problem;
-    app_table t = {.align = "lrrll"};
-    char unit[64], low[32], high[32];
+    bool best = run->searched;
+    app_table t = {.align = best ? "lrrll" : "lrl"};
+    char low[32], high[32];
     if (!p->variables) return;
     app_table_cell(&t, "variable");
     app_table_cell(&t, "start");
-    app_table_cell(&t, run->searched ? "best" : "");
+    if (best) app_table_cell(&t, "best");
     app_table_cell(&t, "range");
     app_table_end(&t);
     for (int k = 0; k < p->variables; k++) {
         const ves_variable *v = &p->variable[k];
+        double scale = v->shown.factor;
         app_table_cell(&t, "%s", v->name);
-        app_table_number(&t, run->start.x[k]);
-        app_table_cell(&t, "%s", run->searched ? in_range(run->best.x[k], v, low) : "");
-        app_table_cell(&t, "[%s, %s]%s", app_screen_number(v->min, low), app_screen_number(v->max, high),
-                       unit_of(p, v->dim, unit));
-        app_table_cell(&t, "%s", run->searched ? limit(v, run->best.x[k]) : "");
+        shown_cell(&t, run->start.x[k], &v->shown);
+        if (best) app_table_cell(&t, "%s", in_range(run->best.x[k], v, low));
+        app_table_cell(&t, "[%s, %s]%s%s", app_screen_number(v->min / scale, low),
+                       app_screen_number(v->max / scale, high), *v->shown.unit ? " " : "", v->shown.unit);
+        if (best) app_table_cell(&t, "%s", limit(v, run->best.x[k]));
     }
     app_table_print(&t, out);
     fputc('\n', out);
 }
 
+static void measure_row(app_table *t, const double start[], double best, const ves_shown *shown)
+{
+    if (start) shown_cell(t, *start, shown);
+    shown_cell(t, best, shown);
+    app_table_cell(t, "%s", shown->unit);
+}
+
 /* Measures, and what the equations of solve: and scale: found. */
 static void measures(const ves_problem *p, const ves_design *best, const ves_design *start, FILE *out)
 {
-    app_table t = {.align = "lrrl"};
-    char unit[64];
+    static const ves_shown plain = {.factor = 1};
+    app_table t = {.align = start ? "lrrl" : "lrl"};
     if (!p->measures && !p->solve && !p->scale) return;
     app_table_cell(&t, "measure");
     if (start) app_table_cell(&t, "start");
@@ -157,45 +173,66 @@ static void measures(const ves_problem *p, const ves_design *best, const ves_des
     app_table_end(&t);
     for (int k = 0; k < p->measures; k++) {
         app_table_cell(&t, "%s", p->measure[k].name);
-        if (start) app_table_number(&t, start->measure[k]);
-        app_table_number(&t, best->measure[k]);
-        if (!start) app_table_cell(&t, "%s", "");
-        app_table_cell(&t, "%s", unit_of(p, p->measure[k].dim, unit));
+        measure_row(&t, start ? &start->measure[k] : NULL, best->measure[k], &p->measure[k].shown);
     }
     if (p->solve) {
+        double from = start && start->status == VES_OK ? start->slot[p->variables] : NAN;
         app_table_cell(&t, "%s (solved)", p->solve->name);
-        if (start) app_table_number(&t, start->status == VES_OK ? start->slot[p->variables] : NAN);
-        app_table_number(&t, best->status == VES_OK ? best->slot[p->variables] : NAN);
-        if (!start) app_table_cell(&t, "%s", "");
-        app_table_cell(&t, "%s", unit_of(p, p->solve->dim, unit));
+        measure_row(&t, start ? &from : NULL, best->status == VES_OK ? best->slot[p->variables] : NAN,
+                    &p->solve->shown);
     }
     if (p->scale) {
         app_table_cell(&t, "scale");
-        if (start) app_table_number(&t, start->similarity);
-        app_table_number(&t, best->similarity);
-        app_table_end(&t);
+        measure_row(&t, start ? &start->similarity : NULL, best->similarity, &plain);
     }
     app_table_print(&t, out);
     fputc('\n', out);
 }
 
+/* What sets another optimum apart from the best: the variables that differ most, relative to their ranges. */
+static void differences(const ves_run *run, int index, char *text, size_t size)
+{
+    const ves_problem *p = run->problem;
+    const double *best = run->optimum[0].x, *x = run->optimum[index].x;
+    size_t length = 0;
+    double most = HUGE_VAL, largest = 0;
+    *text = 0;
+    for (int shown = 0; shown < DIFFERENCES; shown++) {
+        double next = 0;
+        int which = -1;
+        for (int k = 0; k < p->variables; k++) {
+            const ves_variable *v = &p->variable[k];
+            double apart = fabs(x[k] - best[k]) / (v->max - v->min);
+            if (apart < most && apart > next) next = apart, which = k;
+        }
+        if (!shown) largest = next;
+        if (which < 0 || next < APART * largest) return;
+        most = next;
+        const ves_variable *v = &p->variable[which];
+        int written = snprintf(text + length, size - length, "%s%s = %.4g%s%s", shown ? ", " : "   at ",
+                               v->name, x[which] / v->shown.factor, *v->shown.unit ? " " : "", v->shown.unit);
+        length += (size_t)written < size - length ? (size_t)written : size - length - 1;
+    }
+}
+
 static void optima(const ves_run *run, app_table *t)
 {
-    char number[32]; /* distinct optima may differ late: more digits than elsewhere */
+    const ves_shown *shown = &run->problem->objective_shown;
     if (run->optima < 2 && !(run->optima == 1 && run->optimum[0].saddle)) return;
-    for (int k = 0; k < run->optima && k < 8; k++) {
+    for (int k = 0; k < run->optima && k < OPTIMA; k++) {
         const ves_run_optimum *o = &run->optimum[k];
+        char number[32], hits[64] = "once",
+                         apart[200] = ""; /* more digits than elsewhere: they may differ late */
+        snprintf(number, sizeof number, "%#.9g", o->value / shown->factor);
+        if (o->hits != 1) app_screen_plural(o->hits, "time", "times", hits);
+        if (k) differences(run, k, apart, sizeof apart);
         app_table_cell(t, k ? "" : run->optima == 1 ? "optimum" : "optima");
-        snprintf(number, sizeof number, "%#.9g", o->value);
-        app_table_cell(t, "%s   found %s%s%s", number, o->hits == 1 ? "once" : "",
-                       o->hits == 1 ? "" : app_screen_thousands(o->hits, (char[32]){0}),
-                       o->hits == 1 ? "" : " times");
-        if (o->saddle)
-            t->cell[t->cells - 1] = ves_arena_format(&t->arena, "%s   a saddle", t->cell[t->cells - 1]);
+        app_table_cell(t, "%s%s%s   found %s%s%s", number, *shown->unit ? " " : "", shown->unit, hits,
+                       o->saddle ? "   a saddle" : "", apart);
     }
-    if (run->optima > 8) {
+    if (run->optima > OPTIMA) {
         app_table_cell(t, "%s", "");
-        app_table_cell(t, "and %d more in result.json", run->optima - 8);
+        app_table_cell(t, "and %d more in result.json", run->optima - OPTIMA);
     }
 }
 
@@ -267,7 +304,7 @@ void app_screen_run(const ves_run *run, FILE *out)
     const ves_design *start = run->searched ? &run->start : NULL;
     goal(p, &run->best, start, out);
     constraints(p, &run->best, out);
-    variables(run, out);
+    app_screen_variables(run, out);
     measures(p, &run->best, start, out);
     remarks(run, out);
     conclusion(run, out);

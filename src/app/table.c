@@ -64,6 +64,7 @@ static void row_print(const app_table *table, int first, const int *wide, FILE *
     fprintf(out, "%*s", INDENT, "");
     for (int c = 0; c <= last; c++) {
         const char *text = at(table, first + c);
+        if (!wide[c]) continue; /* a column without a word */
         int pad = wide[c] - width(text);
         bool right = table->align[c] == 'r';
         if (right) fprintf(out, "%*s", pad, "");

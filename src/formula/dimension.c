@@ -317,3 +317,35 @@ bool ves_dim_read(const char *text, ves_dim *dim, double *factor)
     if (factor) *factor = ves_unit_apply(&unit, 1);
     return true;
 }
+
+/* The unit behind a number; false: there is none, or not of this dimension. */
+static bool unit_behind(ves_lexer *lexer, ves_dim dim, double *factor)
+{
+    ves_unit unit = {.up = 1, .down = 100};
+    bool percent = lexer->token == VES_TOKEN_PERCENT;
+    if (percent)
+        ves_lexer_next(lexer);
+    else if (!ves_unit_at(lexer) || ves_lexer_calls(lexer) || !ves_unit_read(lexer, &unit))
+        return false;
+    *factor = ves_unit_apply(&unit, 1);
+    return !dim.any && unit.dim.m == dim.m && unit.dim.kg == dim.kg && unit.dim.s == dim.s;
+}
+
+bool ves_unit_find(const char *text, ves_dim dim, char unit[VES_UNIT_TEXT], double *factor)
+{
+    ves_lexer lexer;
+    bool alone = true; /* nothing but a sign before the number */
+    for (ves_lexer_start(&lexer, text); lexer.token != VES_TOKEN_END && lexer.token != VES_TOKEN_BAD;) {
+        ves_token token = lexer.token;
+        ves_lexer_next(&lexer);
+        int begin = lexer.begin;
+        if (token == VES_TOKEN_NUMBER && unit_behind(&lexer, dim, factor) &&
+            lexer.before - begin < VES_UNIT_TEXT &&
+            (!ves_dim_plain(dim) || (alone && lexer.token == VES_TOKEN_END))) {
+            snprintf(unit, VES_UNIT_TEXT, "%.*s", lexer.before - begin, text + begin);
+            return true;
+        }
+        alone = alone && token == VES_TOKEN_MINUS;
+    }
+    return false;
+}

@@ -25,6 +25,14 @@ bool ves_unit_at(const ves_lexer *lexer);
  * an exponent. */
 bool ves_unit_read(ves_lexer *lexer, ves_unit *unit);
 
+enum { VES_UNIT_TEXT = 32 };
+
+/* How a text writes quantities of a dimension: the unit of its first number that has one, as written
+ * ("cm^2"), with factor * value in that unit = value in SI. Of numbers without a dimension only a text that
+ * is one number with its unit counts (-5 deg): in a product deg says nothing of the product. false: there is
+ * none. */
+bool ves_unit_find(const char *text, ves_dim dim, char unit[VES_UNIT_TEXT], double *factor);
+
 const char *const *ves_unit_names(int *count);
 
 /* a * b^sign; false: exponents out of range. `any` on either side makes `any`. */

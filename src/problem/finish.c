@@ -112,5 +112,6 @@ void ves_reader_finish(ves_reader *reader, const ves_fields *root)
     spread_curves(reader);
     check_use(reader, root);
     if (reader->status == VES_OK) number_block(reader);
+    if (reader->status == VES_OK) ves_reader_shown(reader, root);
     if (reader->status == VES_OK) limits(reader);
 }

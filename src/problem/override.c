@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "formula/dimension.h"
 #include "problem/schema.h"
 
 enum { WORD = 200, PATH = 32 };
@@ -59,6 +60,37 @@ static ves_status write(const override *o, size_t begin, size_t end, const char 
     return ves_script_replace(o->script, &edit, text);
 }
 
+/* The unit of a text that is one number with its unit. */
+static bool unit_of(const ves_node *node, char unit[VES_UNIT_TEXT], double *factor, bool *angle)
+{
+    static const ves_dim none = {0};
+    ves_dim dim;
+    if (node->kind != VES_NODE_WORD) return false;
+    *angle = ves_unit_find(node->text, none, unit, factor);
+    const char *end = node->text + strspn(node->text, " +-.0123456789eE");
+    return *angle ||
+           (*end && strlen(end) < VES_UNIT_TEXT && ves_dim_read(end, &dim, factor) && strcpy(unit, end));
+}
+
+/* A plain number in the place of one with a unit: a slip where it is a length, a surprise where it is an
+ * angle. like: what stood there, or next to it in the range. */
+static ves_status check_unit(const override *o, const ves_node *like)
+{
+    char unit[VES_UNIT_TEXT];
+    double value, factor;
+    bool angle;
+    if (!ves_text_number(o->value, &value) || value == 0 || !unit_of(like, unit, &factor, &angle))
+        return VES_OK;
+    if (!angle)
+        return ves_diag_add(o->diag, VES_ERROR, VES_UNIT, value_mark(o),
+                            "%s has no unit, where the file has \"%s\": write %s%s%s", o->value, like->text,
+                            o->value, strchr(like->text, ' ') ? " " : "", unit);
+    ves_diag_add(o->diag, VES_WARNING, VES_UNIT, value_mark(o),
+                 "%s has no unit, where the file has \"%s\": taken as %.6g %s", o->value, like->text,
+                 value / factor, unit);
+    return VES_OK;
+}
+
 /* Replaces a value. One that spans lines in block style has no end that could be trusted. */
 static ves_status replace(const override *o, const ves_node *node)
 {
@@ -66,6 +98,7 @@ static ves_status replace(const override *o, const ves_node *node)
         return ves_diag_add(o->diag, VES_ERROR, VES_USAGE, name_mark(o),
                             "\"%s\" is written over several lines; set one of the values in it", o->name);
     bool empty = node->token == node->token_end;
+    VES_TRY(check_unit(o, node));
     return write(o, node->token, node->token_end, empty ? " " : "", "");
 }
 
@@ -208,7 +241,11 @@ static ves_status set_variable(const override *o, const ves_node *root, const ve
 {
     if (ves_node_find(ves_node_find(root, "start"), o->name)) return set_start(o, root);
     bool triple = range->kind == VES_NODE_LIST && range->count == 3;
-    return triple && *o->value != '[' ? replace(o, range->item[1]) : replace(o, range);
+    if (!triple || *o->value == '[') return replace(o, range);
+    const ves_node *old = range->item[1];
+    if (old->kind == VES_NODE_WORD && !strcmp(old->text, "0"))
+        VES_TRY(check_unit(o, range->item[2])); /* it has none */
+    return replace(o, old);
 }
 
 /* Can an unknown name be a new key of the file itself: --set seed=3? The reader knows which keys there are.

@@ -9,22 +9,31 @@
 #define VES_PROBLEM_PROBLEM_H
 
 #include "curve/curve.h"
+#include "formula/dimension.h"
 #include "formula/formula.h"
 #include "vesica/measure.h"
 #include "vesica/problem.h"
 #include "vesica/search.h"
+
+/* How the file writes a quantity, for people: value / factor in `unit`; "" and 1 without a unit. */
+typedef struct ves_shown {
+    char unit[VES_UNIT_TEXT];
+    double factor;
+} ves_shown;
 
 typedef struct ves_variable {
     const char *name;
     ves_mark mark;
     double min, start, max;
     ves_dim dim;
+    ves_shown shown;
 } ves_variable;
 
 typedef struct ves_parameter {
     const char *name;
     ves_mark mark;
     const ves_formula *formula; /* of earlier slots */
+    ves_shown shown;
 } ves_parameter;
 
 /* solve: {unknown, in, equation}: the unknown's value is the root in [lo, hi]. Formulas read slots and, as
@@ -34,6 +43,7 @@ typedef struct ves_solve {
     const char *name;
     double lo, hi;
     ves_dim dim;
+    ves_shown shown;
     const ves_formula *left, *right;
 } ves_solve;
 
@@ -103,6 +113,7 @@ typedef struct ves_measure_def {
     int over; /* number of patches named, 0: all */
     const int *patch;
     ves_dim dim;
+    ves_shown shown;
 } ves_measure_def;
 
 typedef enum ves_relation { VES_AT_MOST, VES_AT_LEAST, VES_EQUAL } ves_relation;
@@ -113,6 +124,7 @@ typedef struct ves_constraint_def {
     const char *text; /* as written */
     ves_relation relation;
     const ves_formula *left, *right;
+    ves_shown shown;
     double within; /* feasible when the scaled violation is at most this; 1e-6 unless said */
 } ves_constraint_def;
 
@@ -179,6 +191,7 @@ struct ves_problem {
     const ves_scale *scale;       /* NULL: none */
     const ves_formula *objective; /* of slots and measures; NULL: nothing to optimise */
     const char *objective_text;
+    ves_shown objective_shown;
     bool maximize;
     const ves_constraint_def *constraint;
     ves_validity_def validity;

@@ -204,6 +204,11 @@ ves_symbol *ves_reader_symbols(ves_reader *reader, bool expect, int *count);
 void ves_reader_goals(ves_reader *reader, const ves_fields *root);
 void ves_reader_search(ves_reader *reader, const ves_fields *root);
 
+/* shown.c: units for people. That of a word that has one, else SI. */
+void ves_shown_find(const ves_node *const *word, int count, ves_dim dim, ves_shown *shown);
+/* Of measures and goals, after everything is read. */
+void ves_reader_shown(const ves_reader *reader, const ves_fields *root);
+
 /* finish.c: the number block, what varies, and variables that drive nothing. */
 void ves_reader_finish(ves_reader *reader, const ves_fields *root);
 

@@ -280,14 +280,16 @@ static bool book_range(slots *s, const ves_declared *d, double bound[3], ves_dim
     return false;
 }
 
-static void check_start(slots *s, const ves_node *node, double start, const double bound[3])
+static void check_start(slots *s, const ves_node *node, double start, const ves_variable *v)
 {
     char text[3][32];
-    if (isnan(start) || (start >= bound[0] && start <= bound[2])) return;
-    ves_number_text(start, text[0]);
-    ves_number_text(bound[0], text[1]);
-    ves_number_text(bound[2], text[2]);
-    ves_reader_error(s->reader, VES_RANGE, node, "start %s is outside [%s, %s]", text[0], text[1], text[2]);
+    const char *unit = v->shown.unit, *gap = *unit ? " " : "";
+    if (isnan(start) || (start >= v->min && start <= v->max)) return;
+    ves_number_text(start / v->shown.factor, text[0]);
+    ves_number_text(v->min / v->shown.factor, text[1]);
+    ves_number_text(v->max / v->shown.factor, text[2]);
+    ves_reader_error(s->reader, VES_RANGE, node, "start %s%s%s is outside [%s, %s]%s%s", text[0], gap, unit,
+                     text[1], text[2], gap, unit);
 }
 
 static void read_variable(slots *s, int index, const ves_node *starts)
@@ -298,22 +300,27 @@ static void read_variable(slots *s, int index, const ves_node *starts)
     ves_dim dim = {.any = true};
     const ves_node *start = ves_node_find(starts, d->name);
     bool good = d->range ? read_bounds(s, d->range, d->name, 3, bound, &dim) : book_range(s, d, bound, &dim);
-    if (good && bound[0] >= bound[2])
-        empty_range(s, d->range ? d->range : d->word, bound[0], bound[2]);
-    else if (good && !start)
-        check_start(s, d->range ? d->range->item[1] : d->word, bound[1], bound);
+    bool empty = good && bound[0] >= bound[2];
+    if (empty) empty_range(s, d->range ? d->range : d->word, bound[0], bound[2]);
     if (start) {
         const ves_key key = {.name = d->name, .kind = VES_NUMBER};
         ves_dim *outer = r->free;
         r->free = &dim;
         bound[1] = ves_reader_constant(r, start, &key);
         r->free = outer;
-        if (good && bound[0] < bound[2]) check_start(s, start, bound[1], bound);
     }
     r->slot[index].dim = dim;
     r->value[index] = bound[1];
     ves_variable *variable = (ves_variable *)s->problem->variable + index;
-    *variable = (ves_variable){d->name, ves_reader_mark(r, d->word), bound[0], bound[1], bound[2], dim};
+    *variable = (ves_variable){.name = d->name,
+                               .mark = ves_reader_mark(r, d->word),
+                               .min = bound[0],
+                               .start = bound[1],
+                               .max = bound[2],
+                               .dim = dim};
+    ves_shown_find(d->range ? d->range->item : NULL, good && d->range ? 3 : 0, dim, &variable->shown);
+    if (good && !empty)
+        check_start(s, start ? start : d->range ? d->range->item[1] : d->word, bound[1], variable);
 }
 
 static void read_variables(slots *s, const ves_node *starts)
@@ -354,6 +361,9 @@ static void read_unknown(slots *s, const ves_node *solve)
                        .lo = bound[0],
                        .hi = bound[1],
                        .dim = dim};
+    bool list = s->unknown_range && s->unknown_range->kind == VES_NODE_LIST;
+    ves_shown_find(list ? s->unknown_range->item : NULL, list ? s->unknown_range->count : 0, dim,
+                   &out->shown);
     s->problem->solve = out;
     s->problem->unknowns = 1;
 }
@@ -372,7 +382,8 @@ static void compile_all(slots *s, const ves_fields *root)
     if (!ves_reader_memory(r, out)) return;
     for (int k = 0; k < s->ordered; k++) {
         const parameter *p = &s->parameter[s->order[k]];
-        out[k] = (ves_parameter){p->name, ves_reader_mark(r, p->word), p->formula};
+        out[k] = (ves_parameter){.name = p->name, .mark = ves_reader_mark(r, p->word), .formula = p->formula};
+        if (p->formula) ves_shown_find(&p->value, 1, ves_formula_dim(p->formula), &out[k].shown);
     }
     s->problem->parameter = out;
     s->problem->parameters = s->ordered;

@@ -76,12 +76,13 @@ static ves_status best_read(const char *run, ves_arena *arena, best *out, ves_di
 
 /* --- its numbers as overrides --- */
 
-/* A number with a dimension must say it: 0.0345 m. */
-static const char *with_unit(const ves_node *number, ves_dim dim, ves_arena *arena)
+/* A number with a dimension must say it: 0.0345 m; an angle that the file gives in degrees too. */
+static const char *with_unit(const ves_node *number, const ves_variable *v, ves_arena *arena)
 {
     char unit[48];
-    ves_dim_text(dim, unit);
-    if (dim.any || !strcmp(unit, "1")) return number->text;
+    ves_dim_text(v->dim, unit);
+    if (!strcmp(v->shown.unit, "deg")) return ves_arena_format(arena, "%s rad", number->text);
+    if (v->dim.any || !strcmp(unit, "1")) return number->text;
     return ves_arena_format(arena, "%s %s", number->text, unit);
 }
 
@@ -116,7 +117,7 @@ static ves_status best_apply(const best *b, const ves_problem *problem, ves_aren
         if (!is_number(number))
             return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE,
                                 "the run \"%s\" has no number for \"%s\"", b->run, v->name);
-        override[k] = (ves_override){v->name, with_unit(number, v->dim, arena)};
+        override[k] = (ves_override){v->name, with_unit(number, v, arena)};
         if (!override[k].value) return no_memory(diag);
     }
     return VES_OK;

@@ -1,6 +1,7 @@
 #include "study/result.h"
 
 #include <math.h>
+#include <string.h>
 
 static void variables(const ves_problem *problem, const double *x, ves_json *json)
 {
@@ -17,6 +18,13 @@ static void measures(const ves_problem *problem, const ves_design *design, ves_j
     ves_json_end(json, '}');
 }
 
+static void unit(const ves_problem *problem, const char *key, ves_dim dim, ves_json *json)
+{
+    char text[48];
+    ves_dim_text(dim, text);
+    ves_json_text(json, key, problem->units && !dim.any ? text : "1");
+}
+
 static void constraints(const ves_problem *problem, const ves_design *design, ves_json *json)
 {
     ves_json_array(json, "constraints");
@@ -27,9 +35,37 @@ static void constraints(const ves_problem *problem, const ves_design *design, ve
         ves_json_number(json, "value", s->value);
         ves_json_number(json, "limit", s->limit);
         ves_json_number(json, "violation", s->violation);
+        ves_dim dim = ves_formula_dim(problem->constraint[k].left);
+        unit(problem, "unit", dim.any ? ves_formula_dim(problem->constraint[k].right) : dim, json);
         ves_json_end(json, '}');
     }
     ves_json_end(json, ']');
+}
+
+/* Of all numbers here: SI, whatever the file writes. "1": none, as everywhere in a file without units. */
+static void units(const ves_problem *problem, ves_json *json)
+{
+    ves_json_object(json, "units");
+    if (problem->objective) unit(problem, "objective", ves_formula_dim(problem->objective), json);
+    ves_json_object(json, "variables");
+    for (int k = 0; k < problem->variables; k++) {
+        const ves_variable *v = &problem->variable[k];
+        if (!strcmp(v->shown.unit, "deg"))
+            ves_json_text(json, v->name, "rad");
+        else
+            unit(problem, v->name, v->dim, json);
+    }
+    ves_json_end(json, '}');
+    ves_json_object(json, "measures");
+    for (int k = 0; k < problem->measures; k++)
+        unit(problem, problem->measure[k].name, problem->measure[k].dim, json);
+    ves_json_end(json, '}');
+    if (problem->solve) {
+        ves_json_object(json, "unknown");
+        unit(problem, problem->solve->name, problem->solve->dim, json);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, '}');
 }
 
 /* What solve: found. */
@@ -52,6 +88,7 @@ void ves_result_design(const ves_problem *problem, const ves_design *design, ves
     constraints(problem, design, json);
     unknown(problem, design, json);
     if (problem->scale) ves_json_number(json, "scale", design->similarity);
+    units(problem, json);
     if (design->status != VES_OK) ves_json_text(json, "status", ves_status_text(design->status));
 }
 
@@ -145,6 +182,7 @@ void ves_result_write(const ves_run *run, ves_json *json)
     constraints(problem, &run->best, json);
     unknown(problem, &run->best, json);
     if (problem->scale) ves_json_number(json, "scale", run->best.similarity);
+    units(problem, json);
     ves_json_integer(json, "evaluations", run->evaluations);
     ves_json_integer(json, "gradients", run->gradients);
     ves_json_text(json, "stop", run->stop);

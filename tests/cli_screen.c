@@ -1,0 +1,102 @@
+/* What the screen says of numbers, and what result.json says of them. */
+#include <criterion/criterion.h>
+#include <criterion/new/assert.h>
+
+#include "program.h"
+
+static const char tilted[] =
+    "vesica: 1\n"
+    "parameters: {lean: 2 deg, H: 10 cm}\n"
+    "variables: {r: [20 mm, 31.7 mm, 80 mm], tilt: [-20 deg, 3 deg, 20 deg]}\n"
+    "curves:\n"
+    "  low: {circle: {radius: r}}\n"
+    "  high: {circle: {radius: 0.05 m}, apply: [{rotate: [tilt + lean, 0, 0]}, {translate: [0 m, 0 m, H]}]}\n"
+    "patches: {wall: {operator: {power: 1, a: 1}, conditions: [{u: 0, position: low}, {u: 1, position: "
+    "high}]}}\n"
+    "measures: {up: {extent: {along: [0, 0, 1]}}, out: {extent: {along: [1, 0, 0]}}}\n"
+    "minimize: area\n"
+    "constraints: [up <= 1.2*H, out >= 0.03 m, tilt <= 10 deg]\n"
+    "expect: [area < 300 cm^2]\n";
+
+/* Each line, blanks drawn together, must stand in the text. */
+static void has_lines(const char *text, const char *const *line)
+{
+    char *flat = malloc(strlen(text) + 1), *to = flat;
+    for (const char *c = text; *c; c++)
+        if (*c != ' ' || (to > flat && to[-1] != ' ')) *to++ = *c;
+    *to = 0;
+    for (; *line; line++) cr_assert(strstr(flat, *line) != NULL, "no \"%s\" in\n%s", *line, text);
+    free(flat);
+}
+
+Test(cli_screen, numbers_are_in_the_units_of_the_file)
+{
+    root_make();
+    write_file("tilted.yaml", tilted);
+    outcome o = vesica(NULL, "check tilted.yaml");
+    cr_assert(eq(int, o.code, 0), "%s", o.err);
+    has_lines(o.out, (const char *const[]){"r 31.7 [20, 80] mm\n", "tilt 3 [-20, 20] deg\n", "cm^2\n",
+                                           " 12 cm ok\n", " 0.03 m ok\n", "tilt <= 10 deg 3 10 deg ok\n",
+                                           "\n up 10.43595 cm\n", "\n out 0.1000262 m\n", NULL});
+    done(&o);
+    o = vesica(NULL, "run tilted.yaml --evaluations 1500 --json");
+    cr_assert(eq(int, o.code, 0), "%s", o.err);
+    json j = json_of(o.out);
+    const ves_node *units = ves_node_find(j.root, "units");
+    cr_assert(number(&j, "variables", "r") < 0.0201, "SI in result.json");
+    cr_assert(eq(str, (char *)ves_node_find(units, "objective")->text, "m^2"));
+    cr_assert(eq(str, (char *)ves_node_find(ves_node_find(units, "variables"), "r")->text, "m"));
+    cr_assert(eq(str, (char *)ves_node_find(ves_node_find(units, "variables"), "tilt")->text, "rad"));
+    cr_assert(eq(str, (char *)ves_node_find(ves_node_find(units, "measures"), "up")->text, "m"));
+    cr_assert(
+        eq(str, (char *)ves_node_find(ves_node_find(j.root, "constraints")->item[0], "unit")->text, "m"));
+    json_done(&j);
+    done(&o);
+    o = vesica(NULL, "eval runs/tilted-0001");
+    cr_assert(eq(str, o.err, ""), "a run's own numbers have their units");
+    done(&o);
+    o = vesica(NULL, "check " PROBLEMS "bottle.yaml");
+    has_lines(o.out, (const char *const[]){"r 0.5 [0.2, 1.1]\n", "area 4.712389\n", NULL});
+    done(&o);
+    root_remove();
+}
+
+Test(cli_screen, what_is_set_without_a_unit_is_told_or_refused)
+{
+    root_make();
+    write_file("tilted.yaml", tilted);
+    expect(vesica(NULL, "eval tilted.yaml --set lean=0.1"), 0, NULL,
+           "0.1 has no unit, where the file has \"2 deg\": taken as 5.72958 deg", "angle");
+    expect(vesica(NULL, "eval tilted.yaml --set tilt=5"), 2, NULL,
+           "start 286.478897565 deg is outside [-20, 20] deg", "start");
+    expect(vesica(NULL, "eval tilted.yaml --set r=30"), 2, NULL,
+           "30 has no unit, where the file has \"31.7 mm\": write 30 mm", "length");
+    expect(vesica(NULL, "eval tilted.yaml --set H=0.2"), 2, NULL, "write 0.2 cm", "length");
+    static const char *const fine[] = {"r=30mm", "tilt=5deg", "tilt=0", "lean=0.1rad", "H=2*r+3cm"};
+    for (size_t k = 0; k < sizeof fine / sizeof *fine; k++) {
+        outcome o = vesica(NULL, "eval tilted.yaml --set %s", fine[k]);
+        cr_assert(eq(str, o.err, ""), "%s: %s", fine[k], o.err);
+        done(&o);
+    }
+    root_remove();
+}
+
+/* A double well: the lower one at r = 1.2, the other near 0.5. */
+Test(cli_screen, optima_are_told_apart_by_their_variables)
+{
+    root_make();
+    write_file(
+        "wells.yaml",
+        "vesica: 1\n"
+        "variables: {r: [0.2, 0.9, 1.6], idle: [0, 0.4, 1]}\n"
+        "curves: {low: {circle: {radius: r}}, high: {circle: {radius: 1, centre: [0, 0, 1 + idle/100]}}}\n"
+        "patches: {wall: {operator: {power: 1}, conditions: [{u: 0, position: low}, {u: 1, position: "
+        "high}]}}\n"
+        "minimize: 10*((r - 0.5)*(r - 1.2))^2 + 0.001*(1.2 - r) + 0*area + (idle - 0.3)^2\n"
+        "search: [{anneal: {evaluations: 500, chains: 8}}, {polish: {}}]\n");
+    outcome o = vesica(NULL, "run wells.yaml --no-files --jobs 1");
+    has_lines(o.out, (const char *const[]){" at r = 0.50", NULL});
+    cr_assert(strstr(o.out, ", idle") == NULL, "idle is the same in both:\n%s", o.out);
+    done(&o);
+    root_remove();
+}
