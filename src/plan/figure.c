@@ -47,10 +47,10 @@ static ves_status patch_sample(ves_plan *plan, ves_figure *figure, int k, double
     VES_TRY(grid_make(figure, f, inside, grid));
     VES_TRY(ves_chart_create(plan->patch[k], grid, EVERYTHING, &figure->arena, &chart));
     ves_chart_prepare(chart, &plan->bound, false);
-    int tiles = ves_tile_count(grid, VES_TILE_ROWS);
+    int tiles = ves_tile_count(grid);
     for (int t = 0; t < tiles; t++) {
         ves_tile tile;
-        ves_tile_at(grid, VES_TILE_ROWS, t, EVERYTHING, &tile);
+        ves_tile_at(grid, t, EVERYTHING, &tile);
         ves_chart_sample(chart, &tile, plan->field);
         ves_tile_scale(&tile, plan->similarity, plan->field);
         ves_form_rows rows;

@@ -26,6 +26,8 @@ typedef struct plan_site {
     ves_adjoint adjoint;
     ves_grid grid;
     ves_chart *chart; /* NULL: a curve */
+    int tiles;
+    ves_tile *tile; /* the pieces in which a chart is sampled */
     int patch;
     int curve, curve_modes;
     double *trig; /* curve: [e][k][nv] */

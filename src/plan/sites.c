@@ -6,7 +6,7 @@
 
 static const unsigned FIELD_NEED[VES_FIELDS] = {VES_X, VES_XU, VES_XV, VES_XUU, VES_XUV, VES_XVV};
 
-enum { FORM_NEEDS = VES_NORMAL | VES_AREA | VES_CURVATURE, GRADIENT_ROWS = VES_TILE_ROWS / 2 };
+enum { FORM_NEEDS = VES_NORMAL | VES_AREA | VES_CURVATURE };
 
 /* The fields that must be computed so that `needs` can be answered. */
 static unsigned fields_for(unsigned needs)
@@ -59,6 +59,14 @@ static ves_status planes_take(ves_plan *plan, plan_site *s)
     return VES_OK;
 }
 
+static ves_status tiles_cut(ves_plan *plan, plan_site *s)
+{
+    s->tiles = ves_tile_count(&s->grid);
+    s->tile = ves_arena_take(&plan->arena, (size_t)s->tiles, sizeof *s->tile);
+    for (int k = 0; s->tile && k < s->tiles; k++) ves_tile_at(&s->grid, k, 0, &s->tile[k]);
+    return s->tile ? VES_OK : VES_MEMORY;
+}
+
 /* Completes a site whose kind, grid and needs are known. */
 static ves_status site_finish(ves_plan *plan, plan_site *s, ves_site kind)
 {
@@ -77,6 +85,7 @@ static ves_status site_finish(ves_plan *plan, plan_site *s, ves_site kind)
         s->varies = ves_patch_varies(plan->patch[s->patch]) || plan->problem->scale;
         VES_TRY(
             ves_chart_create(plan->patch[s->patch], &s->grid, fields_for(s->wants), &plan->arena, &s->chart));
+        VES_TRY(tiles_cut(plan, s));
     } else {
         s->varies = ves_curves_varies(plan->curves, s->curve) || plan->problem->scale;
         s->curve_modes = ves_curves_modes(plan->curves, s->curve);
@@ -296,31 +305,47 @@ static void curve_sample(ves_plan *plan, plan_site *s, unsigned needs)
 }
 
 /* A plane of a tile into the plane of the grid, times factor (for dA the weights) when there is one. */
-static void tile_store(const plan_site *s, const ves_tile *tile, const double *from, const double *factor,
-                       double *to)
+static void tile_store(const ves_tile *tile, const double *from, const double *factor, double *to)
 {
-    for (int r = 0; r < tile->rows; r++) {
-        size_t at = (size_t)(tile->row[r] * s->grid.nu + tile->block);
-        const double *row = from + r * VES_LANES;
-        if (tile->lanes == VES_LANES) {
-            ves_lanes x = ves_lanes_at(row);
-            if (factor) x *= ves_lanes_at(factor + at);
-            memcpy(to + at, &x, sizeof x);
-        } else {
-            for (int i = 0; i < tile->lanes; i++)
-                to[at + (size_t)i] = row[i] * (factor ? factor[at + (size_t)i] : 1);
+    for (int r = 0; r < tile->rows; r++)
+        for (int i = 0; i < tile->lanes; i++) {
+            size_t at = tile->offset[r] + (size_t)i;
+            to[at] = from[r * VES_LANES + i] * (factor ? factor[at] : 1);
         }
+}
+
+/* The three planes of a field, whole registers. */
+static void field_store(const ves_tile *tile, const double *from, double *const to[3])
+{
+    double *restrict x = to[0], *restrict y = to[1], *restrict z = to[2];
+    int rows = tile->rows;
+    for (int r = 0; r < rows; r++, from += VES_LANES) {
+        size_t at = tile->offset[r];
+        ves_lanes_put(x + at, ves_lanes_at(from));
+        ves_lanes_put(y + at, ves_lanes_at(from + VES_TILE_STRIDE));
+        ves_lanes_put(z + at, ves_lanes_at(from + 2 * VES_TILE_STRIDE));
+    }
+}
+
+static void fields_store(const ves_tile *tile, unsigned needs, const ves_tile_planes *field, ves_samples *to)
+{
+    for (int f = 0; f < VES_FIELDS; f++) {
+        if (!(needs & FIELD_NEED[f])) continue;
+        if (tile->lanes == VES_LANES)
+            field_store(tile, field->at[f * 3], sample_field(to, f));
+        else
+            for (int c = 0; c < 3; c++) tile_store(tile, field->at[f * 3 + c], NULL, sample_field(to, f)[c]);
     }
 }
 
 static void forms_store(const plan_site *s, const ves_tile *tile, unsigned needs, const ves_form_planes *form)
 {
     for (int c = 0; c < 3 && needs & VES_NORMAL; c++)
-        tile_store(s, tile, form->at[VES_FORM_NX + c], NULL, (double *)s->samples.normal[c]);
-    if (needs & VES_AREA) tile_store(s, tile, form->at[VES_FORM_J], s->grid.weight, (double *)s->samples.dA);
+        tile_store(tile, form->at[VES_FORM_NX + c], NULL, (double *)s->samples.normal[c]);
+    if (needs & VES_AREA) tile_store(tile, form->at[VES_FORM_J], s->grid.weight, (double *)s->samples.dA);
     if (needs & VES_CURVATURE) {
-        tile_store(s, tile, form->at[VES_FORM_H], NULL, (double *)s->samples.H);
-        tile_store(s, tile, form->at[VES_FORM_K], NULL, (double *)s->samples.K);
+        tile_store(tile, form->at[VES_FORM_H], NULL, (double *)s->samples.H);
+        tile_store(tile, form->at[VES_FORM_K], NULL, (double *)s->samples.K);
     }
 }
 
@@ -342,7 +367,7 @@ static ves_status forms_sample(ves_plan *plan, plan_site *s, const ves_tile *til
     rows.at[VES_FORM_H] = curvature ? (double *)m->H : NULL;
     rows.at[VES_FORM_K] = curvature ? (double *)m->K : NULL;
     rows.weight = s->grid.weight;
-    for (int r = 0; r < tile->rows; r++) rows.offset[r] = (size_t)(tile->row[r] * s->grid.nu + tile->block);
+    rows.offset = tile->offset;
     return ves_forms_eval(tile, plan->field, s->side, curvature, &rows);
 }
 
@@ -364,17 +389,14 @@ ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gr
     }
     ves_chart_prepare(s->chart, &plan->bound, gradient);
     ves_status worst = VES_OK;
-    int tiles = ves_tile_count(&s->grid, VES_TILE_ROWS);
-    for (int k = 0; k < tiles; k++) {
-        ves_tile tile;
-        ves_tile_at(&s->grid, VES_TILE_ROWS, k, fields_for(needs), &tile);
-        ves_chart_sample(s->chart, &tile, plan->field);
-        if (plan->similarity != 1) ves_tile_scale(&tile, plan->similarity, plan->field);
-        for (int f = 0; f < VES_FIELDS; f++)
-            for (int c = 0; c < 3 && needs & FIELD_NEED[f]; c++)
-                tile_store(s, &tile, plan->field->at[f * 3 + c], NULL, sample_field(&s->samples, f)[c]);
+    for (int k = 0; k < s->tiles; k++) {
+        ves_tile *tile = &s->tile[k];
+        tile->fields = fields_for(needs);
+        ves_chart_sample(s->chart, tile, plan->field);
+        if (plan->similarity != 1) ves_tile_scale(tile, plan->similarity, plan->field);
+        fields_store(tile, needs, plan->field, &s->samples);
         if (needs & FORM_NEEDS) {
-            ves_status status = forms_sample(plan, s, &tile, needs);
+            ves_status status = forms_sample(plan, s, tile, needs);
             if (status != VES_OK) worst = status;
         }
     }
@@ -408,7 +430,7 @@ static void tile_load(const plan_site *s, const ves_tile *tile, const double *fr
                       bool add, double *to)
 {
     for (int r = 0; r < tile->rows; r++) {
-        size_t at = (size_t)(tile->row[r] * s->grid.nu + tile->block);
+        size_t at = tile->offset[r];
         ves_lanes x = {0}, w = {0};
         if (tile->lanes == VES_LANES) {
             x = ves_lanes_at(from + at);
@@ -508,15 +530,14 @@ double ves_site_scatter(ves_plan *plan, plan_site *s, unsigned needs)
     ves_chart_prepare(s->chart, &plan->bound, true);
     double by_similarity = 0;
     bool scaled = plan->problem->scale;
-    int tiles = ves_tile_count(&s->grid, GRADIENT_ROWS);
-    for (int k = 0; k < tiles; k++) {
-        ves_tile tile;
-        ves_tile_at(&s->grid, GRADIENT_ROWS, k, fields_for(needs), &tile);
-        ves_chart_sample(s->chart, &tile, plan->field);
-        if (plan->similarity != 1) ves_tile_scale(&tile, plan->similarity, plan->field);
-        adjoint_make(plan, s, &tile, needs);
-        if (scaled) by_similarity += tile_unscale(&tile, plan->similarity, plan->field, plan->field_adjoint);
-        ves_chart_scatter(s->chart, &tile, plan->field_adjoint);
+    for (int k = 0; k < s->tiles; k++) {
+        ves_tile *tile = &s->tile[k];
+        tile->fields = fields_for(needs);
+        ves_chart_sample(s->chart, tile, plan->field);
+        if (plan->similarity != 1) ves_tile_scale(tile, plan->similarity, plan->field);
+        adjoint_make(plan, s, tile, needs);
+        if (scaled) by_similarity += tile_unscale(tile, plan->similarity, plan->field, plan->field_adjoint);
+        ves_chart_scatter(s->chart, tile, plan->field_adjoint);
     }
     return by_similarity;
 }

@@ -65,39 +65,47 @@ HOT forms forms_at(const ves_tile_planes *field, int s, bool second)
     return f;
 }
 
+#define ROW(r) (size_t)(r) * VES_LANES
+static const size_t IN_ORDER[VES_TILE_ROWS] = {ROW(0),  ROW(1),  ROW(2),  ROW(3), ROW(4),  ROW(5),
+                                               ROW(6),  ROW(7),  ROW(8),  ROW(9), ROW(10), ROW(11),
+                                               ROW(12), ROW(13), ROW(14), ROW(15)};
+
 void ves_form_rows_init(ves_form_planes *planes, ves_form_rows *rows)
 {
     for (int k = 0; k < VES_FORMS; k++) rows->at[k] = planes->at[k];
-    for (int r = 0; r < VES_TILE_ROWS; r++) rows->offset[r] = (size_t)(r * VES_LANES);
+    rows->offset = IN_ORDER;
     rows->weight = NULL;
 }
 
-HOT void put(const ves_form_rows *form, int which, size_t at, lanes x)
+HOT void put(double *plane, size_t at, lanes x)
 {
-    if (form->at[which]) ves_lanes_put(form->at[which] + at, x);
+    if (plane) ves_lanes_put(plane + at, x);
 }
 
 HOT ves_status eval(const ves_tile *tile, const ves_tile_planes *field, double side, bool second,
                     const ves_form_rows *form)
 {
     lanes least = HUGE_VAL + (lanes){0}, total = {0};
+    double *const *to = form->at, *nx = to[VES_FORM_NX], *ny = to[VES_FORM_NY], *nz = to[VES_FORM_NZ],
+                  *dA = to[VES_FORM_J], *H = to[VES_FORM_H], *K = to[VES_FORM_K];
+    const double *weight = form->weight;
     for (int row = 0; row < tile->rows; row++) {
         forms f = forms_at(field, row * VES_LANES, second);
         lanes j2 = dot(f.n, f.n), g = f.E + f.G, r2 = f.r * f.r, t = side * f.r, j = j2 * f.r;
         size_t at = form->offset[row];
-        put(form, VES_FORM_NX, at, t * f.n.x);
-        put(form, VES_FORM_NY, at, t * f.n.y);
-        put(form, VES_FORM_NZ, at, t * f.n.z);
-        put(form, VES_FORM_J, at, form->weight ? j * ves_lanes_at(form->weight + at) : j);
+        put(nx, at, t * f.n.x);
+        put(ny, at, t * f.n.y);
+        put(nz, at, t * f.n.z);
+        put(dA, at, weight ? j * ves_lanes_at(weight + at) : j);
         least = ves_lanes_min(least, j2 - FLAT * g * g);
         total += j2;
         if (!second) continue;
-        put(form, VES_FORM_H, at, -0.5 * (f.E * f.N - 2 * f.F * f.M + f.G * f.L) * r2 * t);
-        put(form, VES_FORM_K, at, (f.L * f.N - f.M * f.M) * r2 * r2);
+        put(H, at, -0.5 * (f.E * f.N - 2 * f.F * f.M + f.G * f.L) * r2 * t);
+        put(K, at, (f.L * f.N - f.M * f.M) * r2 * r2);
     }
-    double low = HUGE_VAL, sum_of_all = 0; /* a minimum forgets what is no number, a sum does not */
-    for (int k = 0; k < VES_LANES; k++) low = fmin(low, least[k]), sum_of_all += total[k];
-    return low > 0 && isfinite(sum_of_all) ? VES_OK : VES_DEGENERATE;
+    int good = 1; /* a minimum forgets what is no number, a sum does not */
+    for (int k = 0; k < VES_LANES; k++) good &= (least[k] > 0) & (total[k] - total[k] == 0);
+    return good ? VES_OK : VES_DEGENERATE;
 }
 
 ves_status ves_forms_eval(const ves_tile *tile, const ves_tile_planes *field, double side, bool curvature,

@@ -19,7 +19,7 @@ typedef struct ves_form_planes {
  * weight: J is multiplied by it (then it is dA), or NULL. */
 typedef struct ves_form_rows {
     double *at[VES_FORMS];
-    size_t offset[VES_TILE_ROWS];
+    const size_t *offset;
     const double *weight;
 } ves_form_rows;
 

@@ -121,20 +121,22 @@ static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena
 HOT void modes_product(const pde *p, pde_chart *c, int K, int orders)
 {
     int nup = c->nup, width = stride(p->band), mode_stride = stride(p->modes);
-    for (int n = 0; n <= p->modes; n++)
+    for (int part = 0; part < mode_stride; part++) {
+        const double *f = p->data + part, *table = c->table + (size_t)((part + 1) / 2 * 3 * K * nup);
+        double g[3][VES_CONDITIONS_MAX];
+        for (int k = 0; k < 3; k++)
+            for (int j = 0; j < K; j++) g[k][j] = f[(j * 3 + k) * width];
         for (int d = 0; d < orders; d++)
             for (int b = 0; b < nup; b += VES_LANES) {
-                lanes w[VES_CONDITIONS_MAX];
-                for (int j = 0; j < K; j++)
-                    w[j] = *(const lanes *)(c->table + (size_t)(((n * 3 + d) * K + j) * nup + b));
-                for (int k = 0; k < 3; k++)
-                    for (int part = n ? 2 * n - 1 : 0; part <= 2 * n; part++) {
-                        const double *f = p->data + k * width + part;
-                        lanes sum = w[0] * f[0];
-                        for (int j = 1; j < K; j++) sum += w[j] * f[j * 3 * width];
-                        *(lanes *)(c->mode + (size_t)(((d * 3 + k) * mode_stride + part) * nup + b)) = sum;
-                    }
+                const double *w = table + d * K * nup + b;
+                double *to = c->mode + (size_t)((d * 3 * mode_stride + part) * nup + b);
+                for (int k = 0; k < 3; k++) {
+                    lanes sum = *(const lanes *)w * g[k][0];
+                    for (int j = 1; j < K; j++) sum += *(const lanes *)(w + j * nup) * g[k][j];
+                    *(lanes *)(to + k * mode_stride * nup) = sum;
+                }
             }
+    }
 }
 
 static void modes_eval(const pde *p, pde_chart *c)

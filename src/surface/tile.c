@@ -8,20 +8,20 @@ static int pieces(const ves_grid *grid)
     return grid->symmetric ? grid->nv / 4 : grid->nv;
 }
 
-static int run_length(const ves_grid *grid, int rows)
+static int run_length(const ves_grid *grid)
 {
-    return grid->symmetric ? rows / 4 : rows;
+    return grid->symmetric ? VES_TILE_ROWS / 4 : VES_TILE_ROWS;
 }
 
-int ves_tile_count(const ves_grid *grid, int rows)
+int ves_tile_count(const ves_grid *grid)
 {
-    int run = run_length(grid, rows);
+    int run = run_length(grid);
     return (pieces(grid) + run - 1) / run * (ves_padded(grid->nu) / VES_LANES);
 }
 
-void ves_tile_at(const ves_grid *grid, int rows, int index, unsigned fields, ves_tile *tile)
+void ves_tile_at(const ves_grid *grid, int index, unsigned fields, ves_tile *tile)
 {
-    int run = run_length(grid, rows), all = pieces(grid), runs = (all + run - 1) / run;
+    int run = run_length(grid), all = pieces(grid), runs = (all + run - 1) / run;
     tile->fields = fields;
     tile->block = index / runs * VES_LANES;
     tile->lanes = grid->nu - tile->block < VES_LANES ? grid->nu - tile->block : VES_LANES;
@@ -38,6 +38,7 @@ void ves_tile_at(const ves_grid *grid, int rows, int index, unsigned fields, ves
             tile->row[k] = q;
         }
     }
+    for (int r = 0; r < tile->rows; r++) tile->offset[r] = (size_t)(tile->row[r] * grid->nu + tile->block);
 }
 
 void ves_tile_scale(const ves_tile *tile, double factor, ves_tile_planes *field)

@@ -1,4 +1,4 @@
-/* Tiles: a patch is sampled a small piece at a time, 8 nodes along u by at most 32 rows along v, so that its
+/* Tiles: a patch is sampled a small piece at a time, 8 nodes along u by at most 16 rows along v, so that its
  * six fields and all that is derived from them stay in the first-level cache; only the planes that a measure
  * asked for are written out. (Storing all 18 planes of 16 x 32 nodes costs more time than computing them.)
  *
@@ -17,7 +17,7 @@
 enum { VES_FIELD_X, VES_FIELD_U, VES_FIELD_V, VES_FIELD_UU, VES_FIELD_UV, VES_FIELD_VV, VES_FIELDS };
 
 enum {
-    VES_TILE_ROWS = 32,
+    VES_TILE_ROWS = 16,
     VES_TILE_STRIDE = (VES_TILE_ROWS + 1) * VES_LANES
 }; /* the odd row keeps planes out of one cache set */
 
@@ -70,18 +70,19 @@ typedef struct ves_tile {
     int lanes; /* how many of the 8 are nodes of the grid */
     int first,
         run; /* of a symmetric grid: quarter rows first .. first + run - 1, four rows each; else plain rows */
-    int rows;               /* rows in the tile */
-    int row[VES_TILE_ROWS]; /* their index along v */
-    unsigned fields;        /* bit f: field f is filled */
+    int rows;                     /* rows in the tile */
+    int row[VES_TILE_ROWS];       /* their index along v */
+    size_t offset[VES_TILE_ROWS]; /* where they begin in a plane of the grid */
+    unsigned fields;              /* bit f: field f is filled */
 } ves_tile;
 
 typedef struct ves_tile_planes {
     _Alignas(64) double at[VES_FIELDS * 3][VES_TILE_STRIDE];
 } ves_tile_planes;
 
-/* Cuts a grid into tiles of at most `rows` rows; number of tiles, and the k-th. */
-int ves_tile_count(const ves_grid *grid, int rows);
-void ves_tile_at(const ves_grid *grid, int rows, int index, unsigned fields, ves_tile *tile);
+/* Number of tiles of a grid, and the k-th. */
+int ves_tile_count(const ves_grid *grid);
+void ves_tile_at(const ves_grid *grid, int index, unsigned fields, ves_tile *tile);
 
 /* Multiplies the fields that the tile names. */
 void ves_tile_scale(const ves_tile *tile, double factor, ves_tile_planes *field);
