@@ -24,6 +24,7 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orientation.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/IO/OBJ.h>
 #include <CGAL/boost/graph/IO/OFF.h>
@@ -150,6 +151,40 @@ void judge(const surface &mesh, ves_mesh_facts *facts)
     facts->volume = pmp::volume(mesh);
 }
 
+struct triple {
+    int corner[3];
+    triple(int a, int b, int c) : corner{a, b, c} {}
+};
+
+// Twice the area of three corners of a polygon.
+double turn(const double *xy, const int corner[3])
+{
+    const double *a = xy + 2 * corner[0], *b = xy + 2 * corner[1], *c = xy + 2 * corner[2];
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+ves_status polygon(int count, const double *xy, int *corner, char message[VES_BRIDGE_TEXT])
+{
+    std::vector<point> rim;
+    std::vector<triple> found;
+    for (int k = 0; k < count; k++) rim.push_back(point(xy[2 * k], xy[2 * k + 1], 0));
+    for (int k = 0; k < 2 * count; k++)
+        if (!std::isfinite(xy[k])) return fault(message, "corner %d is not finite", k / 2);
+    // Nothing but the plane's own triangulation: what else CGAL would try is for holes in space.
+    pmp::triangulate_hole_polyline(rim, std::back_inserter(found),
+                                   CGAL::parameters::use_2d_constrained_delaunay_triangulation(true)
+                                       .use_delaunay_triangulation(false)
+                                       .do_not_use_cubic_algorithm(true)
+                                       .threshold_distance(1.));
+    if (found.size() + 2 != rim.size()) return fault(message, "the polygon crosses itself");
+    for (const triple &t : found) {
+        for (int k = 0; k < 3; k++) corner[k] = t.corner[k];
+        if (turn(xy, corner) < 0) std::swap(corner[1], corner[2]);
+        corner += 3;
+    }
+    return VES_OK;
+}
+
 // Runs `work` and turns whatever C++ throws into a status.
 template <class Work> ves_status guarded(char message[VES_BRIDGE_TEXT], Work work)
 {
@@ -243,6 +278,15 @@ extern "C" ves_status ves_bridge_write(const ves_mesh *mesh, const char *path, c
         }
         VES_TRY(build(*mesh, built, message));
         return write(built, path, as, message);
+    });
+}
+
+extern "C" ves_status ves_bridge_polygon(int count, const double *xy, int *corner,
+                                         char message[VES_BRIDGE_TEXT])
+{
+    return guarded(message, [&] {
+        say(message, "");
+        return polygon(count, xy, corner, message);
     });
 }
 

@@ -36,6 +36,11 @@ ves_status ves_bridge_crosses(const ves_mesh *mesh, bool *crosses, char message[
 /* Writes STL (binary), OBJ, PLY (binary) or OFF by the ending of path. VES_IO with a message on failure. */
 ves_status ves_bridge_write(const ves_mesh *mesh, const char *path, char message[VES_BRIDGE_TEXT]);
 
+/* Cuts a polygon in the plane, given by its corners xy[count][2], counter-clockwise, into count - 2 triangles
+ * that do not overlap: corner[count - 2][3], counter-clockwise. VES_FAULT with a message when it crosses
+ * itself. */
+ves_status ves_bridge_polygon(int count, const double *xy, int *corner, char message[VES_BRIDGE_TEXT]);
+
 /* "5.5.1" */
 const char *ves_bridge_version(void);
 

@@ -6,9 +6,9 @@
 
 static const double TWO_PI = 6.283185307179586;
 
-/* At a pole Xv vanishes: forms are taken this far inside instead, and averaged over v, which is their limit.
- */
-static const double INSIDE = 1e-3;
+/* At a pole Xv vanishes: forms are taken this far inside and half as far, and followed to their limit.
+ * Nearer, what cancels in them would be seen: their rounding is 1e-16 over this distance. */
+static const double INSIDE = 2e-3;
 
 enum { EVERYTHING = (1 << VES_FIELDS) - 1 };
 
@@ -22,29 +22,33 @@ static ves_status patch_reserve(ves_figure *figure, ves_figure_patch *f)
     return VES_OK;
 }
 
-static ves_status grid_make(ves_figure *figure, const ves_figure_patch *f, double inside, ves_grid *grid)
+/* Some rows of a patch, each at its u, and what to take from them. */
+typedef struct visit {
+    int first, rows;
+    const double *u; /* [rows] */
+    double slide;
+    void (*take)(const ves_plan *plan, ves_figure_patch *f, const struct visit *rows, const ves_tile *tile);
+} visit;
+
+static ves_status grid_make(ves_figure *figure, const ves_figure_patch *f, const visit *rows, ves_grid *grid)
 {
-    double *u = ves_arena_take(&figure->arena, (size_t)f->rows, sizeof *u);
     double *v = ves_arena_take(&figure->arena, (size_t)f->columns, sizeof *v);
-    if (!u || !v) return VES_MEMORY;
-    for (int i = 0; i < f->rows; i++) {
-        u[i] = (double)i / f->nu;
-        if (i == 0 && f->pole[0]) u[i] = inside;
-        if (i == f->rows - 1 && f->pole[1]) u[i] = 1 - inside;
+    if (!v) return VES_MEMORY;
+    for (int j = 0; j < f->columns; j++) {
+        v[j] = TWO_PI * j / f->nv + rows->slide;
+        if (rows->slide != 0) v[j] -= TWO_PI * floor(v[j] / TWO_PI);
     }
-    for (int j = 0; j < f->columns; j++) v[j] = TWO_PI * j / f->nv;
-    return ves_grid_given(f->rows, u, f->columns, v, f->periodic, &figure->arena, grid);
+    return ves_grid_given(rows->rows, rows->u, f->columns, v, f->periodic, &figure->arena, grid);
 }
 
-/* Visits every tile of a patch on a grid. */
-static ves_status patch_sample(ves_plan *plan, ves_figure *figure, int k, double inside,
-                               void (*take)(ves_plan *, ves_figure_patch *, const ves_tile *))
+/* Visits every tile of some rows of a patch. */
+static ves_status rows_sample(ves_plan *plan, ves_figure *figure, int k, const visit *rows)
 {
     ves_figure_patch *f = &figure->patch[k];
     ves_grid *grid = ves_arena_take(&figure->arena, 1, sizeof *grid);
     ves_chart *chart;
     if (!grid) return VES_MEMORY;
-    VES_TRY(grid_make(figure, f, inside, grid));
+    VES_TRY(grid_make(figure, f, rows, grid));
     VES_TRY(ves_chart_create(plan->patch[k], grid, EVERYTHING, &figure->arena, &chart));
     ves_chart_prepare(chart, &plan->bound, false);
     int tiles = ves_tile_count(grid);
@@ -53,28 +57,24 @@ static ves_status patch_sample(ves_plan *plan, ves_figure *figure, int k, double
         ves_tile_at(grid, t, EVERYTHING, &tile);
         ves_chart_sample(chart, &tile, plan->field);
         ves_tile_scale(&tile, plan->similarity, plan->field);
-        ves_form_rows rows;
-        ves_form_rows_init(plan->form, &rows);
-        ves_forms_eval(&tile, plan->field, f->side, true, &rows);
-        take(plan, f, &tile);
+        ves_form_rows form;
+        ves_form_rows_init(plan->form, &form);
+        ves_forms_eval(&tile, plan->field, f->side, true, &form);
+        rows->take(plan, f, rows, &tile);
     }
     return VES_OK;
 }
 
-static void take_points(ves_plan *plan, ves_figure_patch *f, const ves_tile *tile)
+static int node_of(const ves_figure_patch *f, const visit *rows, const ves_tile *tile, int row, int lane)
 {
-    for (int r = 0; r < tile->rows; r++)
-        for (int i = 0; i < tile->lanes; i++)
-            for (int c = 0; c < 3; c++)
-                f->X[c][(tile->block + i) * f->columns + tile->row[r]] =
-                    plan->field->at[c][r * VES_LANES + i];
+    return (rows->first + tile->block + lane) * f->columns + tile->row[row];
 }
 
-static void take_forms(ves_plan *plan, ves_figure_patch *f, const ves_tile *tile)
+static void take_forms(const ves_plan *plan, ves_figure_patch *f, const visit *rows, const ves_tile *tile)
 {
     for (int r = 0; r < tile->rows; r++)
         for (int i = 0; i < tile->lanes; i++) {
-            int to = (tile->block + i) * f->columns + tile->row[r], from = r * VES_LANES + i;
+            int to = node_of(f, rows, tile, r, i), from = r * VES_LANES + i;
             for (int c = 0; c < 3; c++) f->normal[c][to] = plan->form->at[VES_FORM_NX + c][from];
             double H = plan->form->at[VES_FORM_H][from], K = plan->form->at[VES_FORM_K][from];
             double root = H * H > K ? sqrt(H * H - K) : 0;
@@ -82,19 +82,160 @@ static void take_forms(ves_plan *plan, ves_figure_patch *f, const ves_tile *tile
         }
 }
 
-/* One value for the whole row of a pole: the mean over v. */
-static void pole_fill(ves_figure_patch *f, int end)
+static void take_all(const ves_plan *plan, ves_figure_patch *f, const visit *rows, const ves_tile *tile)
 {
-    size_t first = end ? (size_t)(f->nu * f->columns) : 0;
-    double *plane[] = {f->normal[0], f->normal[1], f->normal[2], f->H, f->K, f->k1, f->k2};
-    for (size_t k = 0; k < sizeof plane / sizeof *plane; k++) {
-        double mean = 0;
-        for (int j = 0; j < f->columns; j++) mean += plane[k][first + (size_t)j] / f->columns;
-        for (int j = 0; j < f->columns; j++) plane[k][first + (size_t)j] = mean;
+    for (int r = 0; r < tile->rows; r++)
+        for (int i = 0; i < tile->lanes; i++)
+            for (int c = 0; c < 3; c++)
+                f->X[c][node_of(f, rows, tile, r, i)] = plan->field->at[c][r * VES_LANES + i];
+    take_forms(plan, f, rows, tile);
+}
+
+enum { FORMS = 5 }; /* normal, H, K */
+
+static void form_planes(const ves_figure_patch *f, double *plane[FORMS])
+{
+    double *const all[FORMS] = {f->normal[0], f->normal[1], f->normal[2], f->H, f->K};
+    memcpy(plane, all, sizeof all);
+}
+
+/* The mean over v of the forms of one row. */
+static void row_mean(const ves_figure_patch *f, int row, double mean[FORMS])
+{
+    double *plane[FORMS];
+    form_planes(f, plane);
+    for (int k = 0; k < FORMS; k++) {
+        mean[k] = 0;
+        for (int j = 0; j < f->nv; j++) mean[k] += plane[k][row * f->columns + j] / f->nv;
     }
-    double length = hypot(hypot(f->normal[0][first], f->normal[1][first]), f->normal[2][first]);
-    for (int c = 0; c < 3; c++)
-        for (int j = 0; j < f->columns; j++) f->normal[c][first + (size_t)j] /= length > 0 ? length : 1;
+}
+
+static void row_fill(const ves_figure_patch *f, int row, const double form[FORMS])
+{
+    double *plane[FORMS], root = sqrt(fmax(0, form[3] * form[3] - form[4]));
+    form_planes(f, plane);
+    for (int j = row * f->columns; j < (row + 1) * f->columns; j++) {
+        for (int k = 0; k < FORMS; k++) plane[k][j] = form[k];
+        f->k1[j] = form[3] + root, f->k2[j] = form[3] - root;
+    }
+}
+
+static ves_status row_sample(ves_plan *plan, ves_figure *figure, int k, int end, double inside)
+{
+    const ves_figure_patch *f = &figure->patch[k];
+    double *u = ves_arena_take(&figure->arena, 1, sizeof *u);
+    if (!u) return VES_MEMORY;
+    *u = end ? 1 - inside : inside;
+    visit row = {.first = end ? f->nu : 0, .rows = 1, .u = u, .take = take_forms};
+    return rows_sample(plan, figure, k, &row);
+}
+
+/* A pole has one normal and one H and K, the limit of their means over v. Where the surface is smooth the
+ * means are even in u, and (4 f(h/2) - f(h)) / 3 is the limit but for h^4; where it comes to a point they
+ * grow without bound, and what stands beside the pole stands for it. */
+static ves_status pole_limit(ves_plan *plan, ves_figure *figure, int k, int end)
+{
+    const ves_figure_patch *f = &figure->patch[k];
+    double far[FORMS], near[FORMS], limit[FORMS], beside[FORMS];
+    int row = end ? f->nu : 0;
+    VES_TRY(row_sample(plan, figure, k, end, INSIDE));
+    row_mean(f, row, far);
+    VES_TRY(row_sample(plan, figure, k, end, INSIDE / 2));
+    row_mean(f, row, near);
+    row_mean(f, end ? f->nu - 1 : 1, beside);
+    bool pointed = false;
+    for (int q = 3; q < FORMS; q++) pointed = pointed || !(fabs(near[q]) <= 1.5 * fabs(far[q]));
+    for (int q = 0; q < FORMS; q++) limit[q] = pointed ? beside[q] : (4 * near[q] - far[q]) / 3;
+    const double *n = pointed ? near : limit;
+    double length = hypot(hypot(n[0], n[1]), n[2]);
+    for (int c = 0; c < 3; c++) limit[c] = length > 0 ? n[c] / length : 0;
+    row_fill(f, row, limit);
+    return VES_OK;
+}
+
+/* Where the formula of a sheet has no slope at its very end (a half circle), the forms just inside stand for
+ * those of the end; where it has none anywhere, the normal is zero. */
+static ves_status blunt_ends(ves_plan *plan, ves_figure *figure, int k)
+{
+    const ves_figure_patch *f = &figure->patch[k];
+    for (int end = 0; end < 2; end++) {
+        double sum = 0;
+        for (int j = 0; j < f->columns; j++) {
+            int at = (end ? f->nu * f->columns : 0) + j;
+            sum += f->normal[0][at] + f->H[at] + f->K[at];
+        }
+        if (!isfinite(sum)) VES_TRY(row_sample(plan, figure, k, end, INSIDE / 2));
+    }
+    for (int s = 0; s < f->rows * f->columns; s++)
+        if (!isfinite(f->normal[0][s] + f->normal[1][s] + f->normal[2][s]))
+            for (int c = 0; c < 3; c++) f->normal[c][s] = 0;
+    return VES_OK;
+}
+
+/* All rows; the last one for itself when it is moved along v. */
+static ves_status patch_sample(ves_plan *plan, ves_figure *figure, int k)
+{
+    const ves_figure_patch *f = &figure->patch[k];
+    double *u = ves_arena_take(&figure->arena, (size_t)f->rows, sizeof *u);
+    if (!u) return VES_MEMORY;
+    for (int i = 0; i < f->rows; i++) u[i] = (double)i / f->nu;
+    bool slid = f->slide != 0;
+    visit most = {.rows = f->rows - slid, .u = u, .take = take_all};
+    visit last = {.first = f->nu, .rows = 1, .u = u + f->nu, .slide = f->slide, .take = take_all};
+    VES_TRY(rows_sample(plan, figure, k, &most));
+    if (slid) VES_TRY(rows_sample(plan, figure, k, &last));
+    VES_TRY(blunt_ends(plan, figure, k));
+    for (int end = 0; end < 2; end++)
+        if (f->pole[end]) VES_TRY(pole_limit(plan, figure, k, end));
+    return VES_OK;
+}
+
+static int root_of(const int *same, int node)
+{
+    while (same[node] != node) node = same[node];
+    return node;
+}
+
+static void unite(int *same, int a, int b)
+{
+    int p = root_of(same, a), q = root_of(same, b);
+    same[p > q ? p : q] = p > q ? q : p;
+}
+
+/* Which nodes of a sheet lie on each other. The last row slides along v so that its nodes meet those of the
+ * first. */
+static ves_status seams_lay(const ves_plan *plan, ves_figure *figure, int k)
+{
+    ves_figure_patch *f = &figure->patch[k];
+    const plan_sheet *always = &plan->sheet[k];
+    plan_sheet now;
+    f->sides_meet = always->sides.joined && !f->periodic;
+    f->ends_meet = always->ends.joined;
+    if (!f->sides_meet && !f->ends_meet) return VES_OK;
+    VES_TRY(ves_sheet_look(plan, k, &now)); /* the shift may vary */
+    f->ends_meet = now.ends.joined && now.ends.reversed == always->ends.reversed;
+    f->one_sided = ves_sheet_one_sided(always);
+    int count = f->rows * f->columns, last = f->nu * f->columns;
+    int *same = ves_arena_take(&figure->arena, (size_t)count, sizeof *same);
+    if (!same) return VES_MEMORY;
+    for (int s = 0; s < count; s++) same[s] = s;
+    for (int end = 0; end < 2; end++)
+        for (int j = 1; f->pole[end] && j < f->columns; j++) unite(same, end * last, end * last + j);
+    for (int i = 0; i < f->rows && f->sides_meet; i++)
+        unite(same, (always->sides.reversed ? f->nu - i : i) * f->columns, i * f->columns + f->nv);
+    if (f->ends_meet) {
+        double steps = now.ends.shift / TWO_PI * f->nv;
+        int whole = (int)lround(steps), sign = now.ends.reversed ? -1 : 1;
+        if (f->periodic) f->slide = sign * (whole - steps) * TWO_PI / f->nv;
+        if (fabs(f->slide) < 1e-12) f->slide = 0;
+        for (int j = 0; j < f->columns; j++) {
+            int meets = whole + sign * j;
+            unite(same, f->periodic ? (meets % f->nv + f->nv) % f->nv : meets, last + j);
+        }
+    }
+    for (int s = 0; s < count; s++) same[s] = root_of(same, s);
+    f->same = same;
+    return VES_OK;
 }
 
 static ves_status patch_figure(ves_plan *plan, ves_figure *figure, int k, int nu, int nv)
@@ -114,10 +255,10 @@ static ves_status patch_figure(ves_plan *plan, ves_figure *figure, int k, int nu
         f->cap[end] = ves_end_is_capped(plan, k, end);
     }
     VES_TRY(patch_reserve(figure, f));
-    VES_TRY(patch_sample(plan, figure, k, 0, take_points));
-    VES_TRY(patch_sample(plan, figure, k, INSIDE, take_forms));
+    VES_TRY(seams_lay(plan, figure, k));
+    VES_TRY(patch_sample(plan, figure, k));
     for (int end = 0; end < 2; end++)
-        if (f->pole[end]) pole_fill(f, end);
+        if (f->cap[end] && !f->pole[end]) VES_TRY(ves_lid_make(f, end, &figure->arena));
     return VES_OK;
 }
 

@@ -52,9 +52,19 @@ typedef struct plan_level {
     plan_instance *instance; /* [measures] */
 } plan_level;
 
-/* What was found at the ends of a sheet. */
+/* Two edges of a sheet that are one curve. */
+typedef struct plan_seam {
+    bool joined, reversed; /* reversed: they run against each other, and what they make has one side */
+    double shift;
+} plan_seam;
+
+/* What was found at the edges of a sheet. */
 typedef struct plan_sheet {
     bool pole[2];
+    plan_seam ends;  /* X(1, v) = X(0, shift + v), reversed: X(0, shift - v) */
+    plan_seam sides; /* X(u, 2 pi) = X(u, 0), reversed: X(1 - u, 0) */
+    double gap;      /* between X(u, 2 pi) and X(u, 0); NaN: some point is no number */
+    bool gaping;     /* it is more than rounding */
 } plan_sheet;
 
 struct ves_plan {
@@ -65,9 +75,10 @@ struct ves_plan {
     ves_curves *curves;
     ves_bound bound;
     ves_patch **patch;
-    bool branched;     /* more than two patches end on some curve */
+    bool branched; /* no oriented mesh: more than two patches end on some curve, or a sheet has one side */
     plan_sheet *sheet; /* [patches] */
     double *side;      /* [patches] +1: Xu x Xv points outward */
+    int *part;         /* [patches] first patch of the connected part that it belongs to */
     plan_level level[LEVELS];
     bool *runs[PROGRAMS]; /* [measures] */
     double *value;        /* [measures] */
@@ -120,10 +131,21 @@ ves_status ves_plan_crosses(ves_plan *plan);
 /* validity.c */
 ves_status ves_plan_validity(const ves_plan *plan, int level);
 
+/* sheet.c: the edges of one sheet as it is bound, and of all of them in general position */
+ves_status ves_sheet_look(const ves_plan *plan, int patch, plan_sheet *found);
+bool ves_sheet_one_sided(const plan_sheet *sheet);
+ves_status ves_plan_sheets(ves_plan *plan, ves_diag *diag);
+
 /* orient.c: shared curves -> sides and closedness */
 ves_status ves_plan_orient(ves_plan *plan, ves_diag *diag);
 bool ves_end_is_pole(const ves_plan *plan, int patch, int end);
 int ves_end_curve(const ves_plan *plan, int patch, int end);
 bool ves_end_is_capped(const ves_plan *plan, int patch, int end);
+
+/* lid.c: f->lid[end], where a fan would not do */
+ves_status ves_lid_make(ves_figure_patch *f, int end, ves_arena *arena);
+
+/* outward.c: which way the start design faces */
+ves_status ves_plan_face_outward(ves_plan *plan);
 
 #endif

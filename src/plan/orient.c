@@ -56,6 +56,7 @@ static bool spread(ves_plan *plan, int a, int end)
         for (int e = 0; e < 2; e++) {
             if (plan->side[b] != 0 || ves_end_curve(plan, b, e) != curve) continue;
             plan->side[b] = e == end ? -plan->side[a] : plan->side[a];
+            plan->part[b] = plan->part[a];
             return true;
         }
     return false;
@@ -66,7 +67,7 @@ static void spread_all(ves_plan *plan)
     int patches = plan->problem->patches;
     for (int seed = 0; seed < patches; seed++) {
         if (plan->side[seed] != 0) continue;
-        plan->side[seed] = 1;
+        plan->side[seed] = 1, plan->part[seed] = seed;
         for (bool changed = true; changed;) {
             changed = false;
             for (int a = 0; a < patches; a++)
@@ -75,72 +76,72 @@ static void spread_all(ves_plan *plan)
     }
 }
 
-/* A closed shape has no free end. */
-static ves_status closed_check(const ves_plan *plan, ves_diag *diag)
+/* An end goes all the way round: only then is there something to close. */
+static bool is_round(const ves_plan *plan, int patch)
 {
-    const ves_problem *p = plan->problem;
-    if (!p->shape.closed) return VES_OK;
-    for (int k = 0; k < p->patches; k++)
-        for (int end = 0; end < 2; end++) {
-            int curve = ves_end_curve(plan, k, end);
-            bool round = ves_patch_periodic(plan->patch[k]);
-            bool shut = (round && ves_end_is_pole(plan, k, end)) || ves_end_is_capped(plan, k, end) ||
-                        (curve >= 0 && ends_on(plan, curve) == 2);
-            if (!shut)
-                return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
-                                    "the shape is not closed: \"%s.u%d\" is %s; let one other patch end on "
-                                    "the same curve, end "
-                                    "it in a point, or close it with caps: [%s.u%d]",
-                                    p->patch[k].name, end,
-                                    curve >= 0 && ends_on(plan, curve) > 2 ? "shared by more than two ends"
-                                                                           : "free",
-                                    p->patch[k].name, end);
-        }
+    const plan_sheet *sheet = &plan->sheet[patch];
+    return ves_patch_periodic(plan->patch[patch]) || (sheet->sides.joined && !sheet->sides.reversed);
+}
+
+/* How the surface goes on at an end. */
+typedef enum beyond { FREE, SHUT, JOINED, BRANCHED } beyond;
+
+static beyond beyond_end(const ves_plan *plan, int patch, int end)
+{
+    int curve = ves_end_curve(plan, patch, end);
+    if (ves_end_is_pole(plan, patch, end)) return SHUT;
+    if (plan->sheet[patch].ends.joined) return JOINED;
+    int ends = curve < 0 ? 1 : ends_on(plan, curve);
+    return ends == 1 ? FREE : ends == 2 ? JOINED : BRANCHED;
+}
+
+/* A cap belongs on a free end that goes all the way round. */
+static ves_status caps_check(const ves_plan *plan, ves_diag *diag)
+{
+    const ves_shape_def *shape = &plan->problem->shape;
+    for (int k = 0; k < shape->caps; k++) {
+        const ves_end *cap = &shape->cap[k];
+        const char *name = def(plan, cap->patch)->name;
+        if (!is_round(plan, cap->patch))
+            return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, cap->mark,
+                                "\"%s.u%d\" cannot be capped: it is an open line, not a closed curve", name,
+                                cap->end);
+        if (beyond_end(plan, cap->patch, cap->end) == JOINED)
+            return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, cap->mark,
+                                "\"%s.u%d\" needs no cap: the surface goes on there; take it out of caps",
+                                name, cap->end);
+    }
     return VES_OK;
 }
 
-enum { LOOKS = 8 };
-
-static const double SAME = 1e-9; /* of the sheet's size: points that are meant to be one */
-
-/* A sheet says nothing about its ends: they are looked at, at the start design. An end where X does not
- * depend on v is a pole; a periodic sheet must come back to where it began. */
-static ves_status sheet_look(ves_plan *plan, int patch, ves_diag *diag)
+/* A closed shape has two sides and no free edge. */
+static ves_status closed_check(const ves_plan *plan, ves_diag *diag)
 {
-    enum { PLACES = 4 * LOOKS };
-    static const double TWO_PI = 6.283185307179586;
-    double u[PLACES], v[PLACES], size = 0, apart[4] = {0};
-    ves_arena arena = {0};
-    double *room = ves_arena_doubles(&arena, (size_t)ves_patch_point_room(plan->patch[patch]));
-    double *X = ves_arena_doubles(&arena, (size_t)(3 * VES_FIELDS * PLACES));
-    for (int k = 0; k < LOOKS; k++) { /* the end u = 0, the end u = 1, the seam v = 0 and v = 2 pi */
-        double t = (k + 0.5) / LOOKS;
-        u[k] = 0, u[LOOKS + k] = 1, u[2 * LOOKS + k] = u[3 * LOOKS + k] = t;
-        v[k] = v[LOOKS + k] = TWO_PI * t, v[2 * LOOKS + k] = 0, v[3 * LOOKS + k] = TWO_PI;
-    }
-    if (room && X) ves_patch_point(plan->patch[patch], &plan->bound, PLACES, u, v, X, room);
-    for (int c = 0; c < 3 && room && X; c++)
-        for (int k = 0; k < PLACES; k++) {
-            const double *x = X + c * PLACES;
-            int group = k / LOOKS, other = group < 2 ? group * LOOKS : 2 * LOOKS + k % LOOKS;
-            size = fmax(size, fabs(x[k] - x[0]));
-            apart[group] = fmax(apart[group], fabs(x[k] - x[other]));
+    const ves_problem *p = plan->problem;
+    for (int k = 0; k < p->patches && p->shape.closed; k++) {
+        if (ves_sheet_one_sided(&plan->sheet[k]))
+            return ves_diag_add(
+                diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
+                "the shape encloses no volume: surface \"%s\" has one side only (it meets itself "
+                "the other way round)",
+                p->patch[k].name);
+        if (!is_round(plan, k))
+            return ves_diag_add(
+                diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
+                "the shape is not closed: surface \"%s\" has free sides at v = 0 and v = 2 pi",
+                p->patch[k].name);
+        for (int end = 0; end < 2; end++) {
+            beyond what = beyond_end(plan, k, end);
+            if (what == SHUT || what == JOINED || ves_end_is_capped(plan, k, end)) continue;
+            return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
+                                "the shape is not closed: \"%s.u%d\" is %s; let one other patch end on "
+                                "the same curve, end "
+                                "it in a point, or close it with caps: [%s.u%d]",
+                                p->patch[k].name, end,
+                                what == BRANCHED ? "shared by more than two ends" : "free", p->patch[k].name,
+                                end);
         }
-    ves_arena_destroy(&arena);
-    if (!room || !X) return VES_MEMORY;
-    for (int end = 0; end < 2; end++) plan->sheet[patch].pole[end] = apart[end] <= SAME * size;
-    if (!def(plan, patch)->periodic || apart[3] <= SAME * size) return VES_OK;
-    return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, def(plan, patch)->mark,
-                        "surface \"%s\" is periodic but does not close: at v = 2 pi it is %.3g away from "
-                        "where it was at v = 0; write "
-                        "periodic: false, or mend the formula",
-                        def(plan, patch)->name, apart[3]);
-}
-
-static ves_status sheets_look(ves_plan *plan, ves_diag *diag)
-{
-    for (int k = 0; k < plan->problem->patches; k++)
-        if (def(plan, k)->kind != VES_PATCH_PDE) VES_TRY(sheet_look(plan, k, diag));
+    }
     return VES_OK;
 }
 
@@ -160,8 +161,9 @@ static void branches_find(ves_plan *plan, ves_diag *diag)
 
 ves_status ves_plan_orient(ves_plan *plan, ves_diag *diag)
 {
-    VES_TRY(sheets_look(plan, diag));
+    VES_TRY(ves_plan_sheets(plan, diag));
     branches_find(plan, diag);
     spread_all(plan);
+    VES_TRY(caps_check(plan, diag));
     return closed_check(plan, diag);
 }

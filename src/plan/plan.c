@@ -97,10 +97,11 @@ static ves_status memory_take(ves_plan *plan)
     plan->patch = ves_arena_take(a, (size_t)p->patches, sizeof *plan->patch);
     plan->sheet = ves_arena_take(a, (size_t)p->patches, sizeof *plan->sheet);
     plan->side = ves_arena_take(a, (size_t)p->patches, sizeof *plan->side);
+    plan->part = ves_arena_take(a, (size_t)p->patches, sizeof *plan->part);
     return plan->block && plan->block_adjoint && plan->value && plan->fine && plan->measure_adjoint &&
                    plan->size && plan->cheap && plan->formula_room && plan->rows && plan->row_similarity &&
                    plan->unit_row && plan->field && plan->field_adjoint && plan->form && plan->patch &&
-                   plan->side
+                   plan->sheet && plan->side && plan->part
                ? VES_OK
                : VES_MEMORY;
 }
@@ -153,55 +154,6 @@ static ves_status patch_make(ves_plan *plan, int k, ves_diag *diag)
     return status;
 }
 
-/* Outward: the volume of the start design is positive. An open shape is closed in thought by fans over its
- * free ends. */
-static ves_status face_outward(ves_plan *plan)
-{
-    ves_figure *figure;
-    double flux = 0;
-    VES_TRY(ves_plan_figure_make(plan, 16, 32, &figure));
-    for (int k = 0; k < figure->patches; k++) {
-        const ves_figure_patch *f = &figure->patch[k];
-        double sum = 0;
-        for (int i = 0; i < f->nu; i++)
-            for (int j = 0; j < f->nv; j++) {
-                int next = f->periodic ? (j + 1) % f->nv : j + 1,
-                    node[4] = {i * f->columns + j, (i + 1) * f->columns + j, (i + 1) * f->columns + next,
-                               i * f->columns + next};
-                for (int t = 0; t < 2; t++) {
-                    int a = node[0], b = node[1 + t], c = node[2 + t];
-                    const double *const *X = (const double *const *)f->X;
-                    sum += X[0][a] * (X[1][b] * X[2][c] - X[2][b] * X[1][c]) +
-                           X[1][a] * (X[2][b] * X[0][c] - X[0][b] * X[2][c]) +
-                           X[2][a] * (X[0][b] * X[1][c] - X[1][b] * X[0][c]);
-                }
-            }
-        flux += f->side * sum;
-        for (int end = 0; end < 2 && f->periodic;
-             end++) { /* the fan from the mean of an end that nobody shares */
-            if (f->pole[end]) continue;
-            bool shared = false;
-            for (int m = 0; m < figure->patches; m++)
-                for (int e = 0; e < 2; e++)
-                    shared = shared || ((m != k || e != end) && f->edge[end] >= 0 &&
-                                        figure->patch[m].edge[e] == f->edge[end]);
-            if (shared) continue;
-            double mean[3] = {0}, area[3] = {0};
-            int first = end ? f->nu * f->columns : 0;
-            for (int j = 0; j < f->nv; j++)
-                for (int c = 0; c < 3; c++) {
-                    int a = (c + 1) % 3, b = (c + 2) % 3, s = first + j, n = first + (j + 1) % f->nv;
-                    mean[c] += f->X[c][s] / f->nv;
-                    area[c] += f->X[a][s] * f->X[b][n] - f->X[b][s] * f->X[a][n];
-                }
-            for (int c = 0; c < 3; c++) flux += (end ? -1 : 1) * f->side * mean[c] * area[c];
-        }
-    }
-    ves_figure_destroy(figure);
-    for (int k = 0; k < plan->problem->patches && flux < 0; k++) plan->side[k] = -plan->side[k];
-    return VES_OK;
-}
-
 /* The scale of each violation: |limit|, or the size of the left side at the start, whichever is larger. */
 static void sizes_fix(ves_plan *plan)
 {
@@ -237,7 +189,7 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     for (int k = 0; k < p->patches; k++) VES_TRY(patch_make(plan, k, diag));
     ves_plan_bind_patches(plan);
     VES_TRY(ves_plan_orient(plan, diag));
-    VES_TRY(face_outward(plan));
+    VES_TRY(ves_plan_face_outward(plan));
     VES_TRY(runs_make(plan));
     for (int k = 0; k < LEVELS; k++) {
         for (int d = 0; d < 2; d++) plan->level[k].quadrature[d] = options->quadrature[d] << k;

@@ -13,7 +13,8 @@ double ves_figure_v(const ves_figure_patch *patch, int node)
 {
     bool whole = patch->v_min == 0 && patch->v_max == 0;
     double range = whole ? two_pi : patch->v_max - patch->v_min;
-    return patch->v_min + node % patch->columns * range / patch->nv;
+    double slide = node / patch->columns == patch->nu ? patch->slide : 0;
+    return patch->v_min + node % patch->columns * range / patch->nv + slide;
 }
 
 /* Node (i, j) with j running on past the seam of a periodic patch, and a pole as its first node. */
@@ -65,22 +66,28 @@ int ves_figure_triangles(const ves_figure_patch *patch, int *corner)
     return count;
 }
 
-void ves_figure_rim(const ves_figure_patch *patch, int end, int j, int node[2])
-{
-    int row = end ? patch->nu : 0;
-    bool flip = (end == 1) != (patch->side < 0);
-    node[flip] = node_at(patch, row, j);
-    node[!flip] = node_at(patch, row, j + 1);
-}
-
 void ves_figure_middle(const ves_figure_patch *patch, int end, double middle[3])
 {
     int first = end ? patch->nu * patch->columns : 0;
     for (int c = 0; c < 3; c++) {
         double sum = 0;
-        for (int j = 0; j < patch->columns; j++) sum += patch->X[c][first + j];
-        middle[c] = sum / patch->columns;
+        for (int j = 0; j < patch->nv; j++) sum += patch->X[c][first + j];
+        middle[c] = sum / patch->nv;
     }
+}
+
+int ves_figure_cap(const ves_figure_patch *patch, int end, int *corner)
+{
+    int row = end ? patch->nu : 0, count = patch->lid[end] ? patch->nv - 2 : patch->nv;
+    bool flip = (end == 1) != (patch->side < 0);
+    for (int t = 0; t < count; t++) {
+        const int fan[3] = {t, t + 1, -1}, *turn = patch->lid[end] ? patch->lid[end] + 3 * t : fan;
+        for (int k = 0; k < 3; k++) {
+            int j = turn[flip && k < 2 ? 1 - k : k];
+            corner[3 * t + k] = j < 0 ? -1 : node_at(patch, row, j);
+        }
+    }
+    return count;
 }
 
 int ves_figure_owner(const ves_figure *figure, int patch, int node, int *owner)
@@ -88,6 +95,7 @@ int ves_figure_owner(const ves_figure *figure, int patch, int node, int *owner)
     const ves_figure_patch *p = &figure->patch[patch];
     int row = node / p->columns, seam = row == 0 ? p->edge[0] : row == p->nu ? p->edge[1] : -1;
     *owner = patch;
+    if (p->same) return p->same[node];
     for (int k = 0; seam >= 0 && k <= patch; k++) {
         const ves_figure_patch *q = &figure->patch[k];
         for (int end = 0; end < 2; end++) {
@@ -123,7 +131,8 @@ static int vertex_add(weld *w, const double x[3], int patch, int node)
 static int node_add(weld *w, const ves_figure *figure, int patch, int node)
 {
     const ves_figure_patch *p = &figure->patch[patch];
-    double x[3] = {p->X[0][node], p->X[1][node], p->X[2][node]};
+    int at = p->same ? p->same[node] : node; /* a seam that must stay open still shows no gap */
+    double x[3] = {p->X[0][at], p->X[1][at], p->X[2][at]};
     return vertex_add(w, x, patch, node);
 }
 
@@ -146,24 +155,21 @@ static ves_status end_weld(weld *w, const ves_figure *figure, int patch, int end
 static void cap_weld(weld *w, const ves_figure *figure, int patch, int end, const int *vertex)
 {
     const ves_figure_patch *p = &figure->patch[patch];
+    int *corner = w->mesh->corner + 3 * w->mesh->triangles, count = ves_figure_cap(p, end, corner);
     double x[3];
-    int node[2];
     ves_figure_middle(p, end, x);
-    int middle = vertex_add(w, x, -1, -1);
-    for (int j = 0; j < p->nv; j++) {
-        int *corner = w->mesh->corner + 3 * w->mesh->triangles++;
-        ves_figure_rim(p, end, j, node);
-        corner[0] = vertex[node[0]];
-        corner[1] = vertex[node[1]];
-        corner[2] = middle;
-    }
+    int middle = p->lid[end] ? -1 : vertex_add(w, x, -1, -1);
+    for (int k = 0; k < 3 * count; k++) corner[k] = corner[k] < 0 ? middle : vertex[corner[k]];
+    w->mesh->triangles += count;
 }
 
 static ves_status patch_weld(weld *w, const ves_figure *figure, int patch, int *vertex)
 {
     const ves_figure_patch *p = &figure->patch[patch];
-    for (int end = 0; end < 2; end++) VES_TRY(end_weld(w, figure, patch, end, vertex));
-    for (int k = p->columns; k < p->nu * p->columns; k++) vertex[k] = node_add(w, figure, patch, k);
+    const int *same = p->one_sided ? NULL : p->same;
+    for (int end = 0; end < 2 && !same; end++) VES_TRY(end_weld(w, figure, patch, end, vertex));
+    for (int k = same ? 0 : p->columns; k < (same ? p->rows : p->nu) * p->columns; k++)
+        vertex[k] = same && same[k] != k ? vertex[same[k]] : node_add(w, figure, patch, k);
     int *corner = w->mesh->corner + 3 * w->mesh->triangles;
     int count = ves_figure_triangles(p, corner);
     for (int k = 0; k < 3 * count; k++) corner[k] = vertex[corner[k]];

@@ -11,13 +11,14 @@
 #include "vesica/status.h"
 
 /* One patch on (nu + 1) x nv nodes when periodic in v, else (nu + 1) x (nv + 1): node (i, j) at i * columns +
- * j, u = i / nu, v = v_min + j * (v_max - v_min) / nv. */
+ * j, u = i / nu, v = v_min + j * (v_max - v_min) / nv (the last row: + slide). */
 typedef struct ves_figure_patch {
     const char *name;
     int nu, nv, rows, columns;
     bool periodic;
     double v_min, v_max; /* both 0: 0 .. 2 pi */
-    double *X[3];        /* m */
+    double slide; /* by how much the last row is moved along v, so that its nodes meet those of the first */
+    double *X[3]; /* m */
     double
         *normal[3]; /* unit, outward; zero where the surface has none (poles are filled with their limit) */
     double *H, *K, *k1, *k2; /* 1/m, 1/m^2; k1 >= k2; H = +1/R on a sphere */
@@ -25,7 +26,12 @@ typedef struct ves_figure_patch {
     int edge[2];  /* which seam the ends u = 0 and u = 1 lie on; ends with the same number share a curve; -1:
                      free */
     bool pole[2]; /* the end is a single point */
-    bool cap[2];  /* the end is to be closed by a fan to its mean point */
+    bool ends_meet, sides_meet; /* the sheet meets itself: u = 0 and u = 1, v = 0 and v = 2 pi are one line */
+    bool one_sided;             /* it does so the other way round: its mesh is left open there */
+    const int *same;            /* [nodes] the first node that lies where this one lies; NULL: each its own */
+    bool cap[2];                /* the end is to be closed */
+    const int *lid[2]; /* [nv - 2][3] triangles of a cap over the nodes 0 .. nv - 1 of the end, running as v
+                          does; NULL: a fan to the end's middle */
 } ves_figure_patch;
 
 struct ves_figure {
@@ -38,9 +44,9 @@ struct ves_figure {
 };
 
 /* Welds the patches to one mesh in the figure's arena: ends on the same seam share vertices (by index, never
- * by distance), poles are one vertex, caps are fans, periodic patches close. vertex_patch and vertex_node
- * (both [vertices], NULL: not wanted) say which patch and node a vertex came from (-1, -1 for the middle of a
- * cap). All patches on one seam must have the same nv. */
+ * by distance), poles are one vertex, caps close their ends, periodic patches close. vertex_patch and
+ * vertex_node (both [vertices], NULL: not wanted) say which patch and node a vertex came from (-1, -1 for the
+ * middle of a cap). All patches on one seam must have the same nv. */
 ves_status ves_figure_mesh(ves_figure *figure, ves_mesh *mesh, int **vertex_patch, int **vertex_node);
 
 /* Triangles of one patch alone, corners as nodes of the patch: columns close, all of a pole is its first
@@ -48,13 +54,16 @@ ves_status ves_figure_mesh(ves_figure *figure, ves_mesh *mesh, int **vertex_patc
  * many were made. */
 int ves_figure_triangles(const ves_figure_patch *patch, int *corner);
 
-/* The two nodes of segment `j` (0 .. nv - 1) of end `end`, in the order that a cap's triangle (node[0],
- * node[1], middle) needs to be outward, and the middle: the mean of the end's nodes. */
-void ves_figure_rim(const ves_figure_patch *patch, int end, int j, int node[2]);
+/* The middle of an end, the mean of its nodes, and the triangles of its cap, outward, corners as nodes of the
+ * patch
+ * (-1: the middle). The mean over v is the apex of the cap whose volume measures count; where the end is flat
+ * the volume is that of any triangles over it, and those of `lid` do not overlap when the fan's would. corner
+ * has room for nv triangles; returns how many were made. */
 void ves_figure_middle(const ves_figure_patch *patch, int end, double middle[3]);
+int ves_figure_cap(const ves_figure_patch *patch, int end, int *corner);
 
-/* The node whose position welding gives to a node: on a seam, that of the first end that lies on it (*owner:
- * its patch). The two differ by rounding. */
+/* The node whose position welding gives to a node: on a seam, that of the first that lies on it (*owner: its
+ * patch). The two differ by rounding. */
 int ves_figure_owner(const ves_figure *figure, int patch, int node, int *owner);
 
 /* u and v of a node. */

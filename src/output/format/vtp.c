@@ -1,6 +1,6 @@
 /* VTK XML PolyData, appended raw. Patches keep their own points along shared curves (they coincide to the
- * bit; "Clean to Grid" or clean() joins them), since normals and curvatures may jump there. The fan that
- * closes a cap is patch -1, flat: curvature 0. */
+ * bit; "Clean to Grid" or clean() joins them), since normals and curvatures may jump there. Caps are
+ * patch -1, curvature 0. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -91,24 +91,29 @@ static void cross_add(double sum[3], const double *o, const double *a, const dou
     }
 }
 
-/* The fan: the end's nodes and their mean, with one normal, that of the whole. */
-static void cap_add(sheet *s, const ves_figure *figure, int patch, int end)
+/* The end's nodes once more and, of a fan, their middle, with one normal, that of the whole. */
+static void cap_add(sheet *s, const ves_figure *figure, int patch, int end, int *corner)
 {
     const ves_figure_patch *p = &figure->patch[patch];
-    int row = end ? p->nu * p->columns : 0, node[2];
-    int64_t first = s->points, middle = first + p->columns;
+    int row = end ? p->nu * p->columns : 0, count = ves_figure_cap(p, end, corner);
+    int64_t first = s->points, middle = -1, last = first + p->columns - 1;
     double normal[3] = {0};
     for (int j = 0; j < p->columns; j++) point_add(s, figure, patch, row + j, -1);
-    point_add(s, figure, patch, row, -1);
-    ves_figure_middle(p, end, s->x + 3 * middle);
-    for (int j = 0; j < p->nv; j++) {
-        ves_figure_rim(p, end, j, node);
-        int64_t a = first + node[0] - row, b = first + node[1] - row;
-        triangle_add(s, a, b, middle);
-        cross_add(normal, s->x + 3 * middle, s->x + 3 * a, s->x + 3 * b);
+    if (!p->lid[end]) {
+        middle = last = point_add(s, figure, patch, row, -1);
+        ves_figure_middle(p, end, s->x + 3 * middle);
+    }
+    for (int t = 0; t < count; t++) {
+        int64_t at[3];
+        for (int k = 0; k < 3; k++) {
+            int node = corner[3 * t + k];
+            at[k] = node < 0 ? middle : first + node - row;
+        }
+        triangle_add(s, at[0], at[1], at[2]);
+        cross_add(normal, s->x + 3 * at[0], s->x + 3 * at[1], s->x + 3 * at[2]);
     }
     double size = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
-    for (int64_t k = first; k <= middle; k++) {
+    for (int64_t k = first; k <= last; k++) {
         for (int c = 0; c < 3; c++) s->normal[3 * k + c] = size > 0 ? normal[c] / size : 0;
         for (int q = H; q <= K2; q++) s->scalar[q][k] = 0;
     }
@@ -128,7 +133,7 @@ static ves_status sheet_fill(sheet *s, ves_arena *arena, const ves_figure *figur
         const ves_figure_patch *p = &figure->patch[k];
         patch_add(s, figure, k, scratch);
         for (int end = 0; end < 2; end++)
-            if (p->cap[end] && !p->pole[end]) cap_add(s, figure, k, end);
+            if (p->cap[end] && !p->pole[end]) cap_add(s, figure, k, end, scratch);
     }
     return VES_OK;
 }
