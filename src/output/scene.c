@@ -6,7 +6,7 @@
 
 #include "base/text.h"
 
-enum { REFINE = 12, AROUND = 24, PIECES = 1000000 };
+enum { REFINE = 12, AROUND = 24, CAP_MOST = 64, PIECES = 1000000 };
 
 int ves_scene_quantity(const char *word)
 {
@@ -136,6 +136,7 @@ typedef struct maker {
     ves_rgb base;         /* else */
     int fine[2], step[2]; /* pieces along a quad; nodes between two drawn lines */
     double reach;         /* size of a quad, in lengths */
+    bool closed;          /* nobody sees the inside */
 } maker;
 
 /* Value of a plane at (i, j) + (fu, fv), bilinear. */
@@ -151,23 +152,36 @@ static void blend3(const maker *m, double *const plane[3], int i, int j, double 
     for (int c = 0; c < 3; c++) out[c] = blend(m, plane[c], i, j, fu, fv);
 }
 
-static ves_rgb piece_colour(const maker *m, const double x[3], const double normal[3], double value)
+static void toward_eye(const maker *m, const double x[3], double eye[3])
 {
     const ves_camera *camera = &m->scene->camera;
-    static const ves_rgb lining = {0.86, 0.84, 0.80};
-    double eye[3], n[3], to_eye[3];
     for (int c = 0; c < 3; c++)
         eye[c] = camera->distance > 0 ? camera->target[c] + camera->distance * camera->toward[c] - x[c]
                                       : camera->toward[c];
     normalise(eye);
+}
+
+static bool turned_away(const maker *m, const double x[3], const double normal[3])
+{
+    double eye[3];
+    toward_eye(m, x, eye);
+    return dot(normal, eye) < 0;
+}
+
+/* What a surface of colour `base` looks like at x. */
+static ves_rgb surface_colour(const maker *m, const double x[3], const double normal[3], ves_rgb base)
+{
+    const ves_camera *camera = &m->scene->camera;
+    static const ves_rgb lining = {0.86, 0.84, 0.80};
+    double eye[3], n[3], to_eye[3];
+    toward_eye(m, x, eye);
     bool inside = dot(normal, eye) < 0;
     const double *axis[3] = {camera->right, camera->up, camera->toward};
     for (int c = 0; c < 3; c++) {
         n[c] = dot(normal, axis[c]) * (inside ? -1 : 1);
         to_eye[c] = dot(eye, axis[c]);
     }
-    ves_rgb base = m->plane ? ves_colour_value(&m->scene->colours, value) : m->base;
-    if (inside) base = ves_colour_mix(base, lining, m->plane ? 0.30 : 0.78);
+    if (inside && !m->p->one_sided) base = ves_colour_mix(base, lining, m->plane ? 0.30 : 0.78);
     return lit(base, n, to_eye, m->plane ? 0.42 : 0.60, inside ? 0.04 : 0.25);
 }
 
@@ -192,7 +206,8 @@ static void piece_add(const maker *m, int i, int j, int a, int b)
         cross(one, two, normal);
         normalise(normal);
     }
-    ves_rgb colour = piece_colour(m, middle, normal, m->plane ? blend(m, m->plane, i, j, fu, fv) : 0);
+    ves_rgb base = m->plane ? ves_colour_value(&scene->colours, blend(m, m->plane, i, j, fu, fv)) : m->base;
+    ves_rgb colour = surface_colour(m, middle, normal, base);
     piece->r = (float)colour.r, piece->g = (float)colour.g, piece->b = (float)colour.b;
     piece->depth = (float)project(&scene->camera, middle, &px, &py);
     piece->corners = 4;
@@ -202,6 +217,92 @@ static void piece_add(const maker *m, int i, int j, int a, int b)
     piece->lines =
         (unsigned char)(low_u * VES_LOW_U | high_u * VES_HIGH_U | low_v * VES_LOW_V | high_v * VES_HIGH_V);
     scene->pieces++;
+}
+
+/* --- caps
+ * -------------------------------------------------------------------------------------------------- */
+
+/* A point of a triangle: s from its last corner to the opposite side, t along that side. The middle of a fan
+ * is its last corner. */
+static void triangle_at(double (*const x)[3], double s, double t, double out[3])
+{
+    for (int c = 0; c < 3; c++) out[c] = x[2][c] + s * ((1 - t) * x[0][c] + t * x[1][c] - x[2][c]);
+}
+
+/* Flat pieces of one triangle of a cap, rows from its last corner outward. */
+static void triangle_add(const maker *m, double (*const x)[3], ves_rgb base, const int fine[2])
+{
+    static const int ds[4] = {0, 1, 1, 0}, dt[4] = {0, 0, 1, 1};
+    ves_scene *scene = m->scene;
+    double one[3], two[3], normal[3], px, py;
+    for (int c = 0; c < 3; c++) one[c] = x[0][c] - x[2][c], two[c] = x[1][c] - x[2][c];
+    cross(one, two, normal);
+    normalise(normal);
+    for (int a = 0; a < fine[0]; a++)
+        for (int b = 0; b < fine[1]; b++) {
+            ves_piece *piece = &scene->piece[scene->pieces];
+            double at[3];
+            bool good = true;
+            for (int k = 0; k < 4; k++) {
+                triangle_at(x, (double)(a + ds[k]) / fine[0], (double)(b + dt[k]) / fine[1], at);
+                project(&scene->camera, at, &px, &py);
+                good = good && isfinite(px + py);
+                piece->x[k] = (float)px, piece->y[k] = (float)py;
+            }
+            triangle_at(x, (a + 0.5) / fine[0], (b + 0.5) / fine[1], at);
+            if (!good || (m->closed && turned_away(m, at, normal))) continue;
+            ves_rgb colour = surface_colour(m, at, normal, base);
+            piece->r = (float)colour.r, piece->g = (float)colour.g, piece->b = (float)colour.b;
+            piece->depth = (float)project(&scene->camera, at, &px, &py);
+            piece->corners = 4, piece->lines = 0;
+            piece->order = scene->pieces++;
+        }
+}
+
+/* As fine as the surface beside it, so that what is nearer covers what is behind. */
+static void cap_fineness(const maker *m, double (*const x)[3], int fine[2])
+{
+    double across = 0, along = 0;
+    for (int c = 0; c < 3; c++) {
+        double middle = (x[0][c] + x[1][c]) / 2;
+        across += (middle - x[2][c]) * (middle - x[2][c]), along += (x[1][c] - x[0][c]) * (x[1][c] - x[0][c]);
+    }
+    double size = m->reach > 0 ? m->reach : 1;
+    fine[0] = (int)fmin(ceil(sqrt(across) / size), CAP_MOST);
+    fine[1] = (int)fmin(ceil(sqrt(along) / size), CAP_MOST);
+    for (int k = 0; k < 2; k++)
+        if (fine[k] < 1) fine[k] = 1;
+}
+
+/* A cap has no curvature to show: then it is grey. Nobody sees a closed shape's caps from inside. */
+static long cap_add(const maker *m, int end, int *corner, bool draw)
+{
+    static const ves_rgb grey = {0.80, 0.81, 0.82};
+    const ves_figure_patch *p = m->p;
+    double x[3][3], middle[3];
+    long pieces = 0;
+    int count = ves_figure_cap(p, end, corner), fine[2];
+    ves_figure_middle(p, end, middle);
+    for (int t = 0; t < count; t++) {
+        for (int k = 0; k < 3; k++)
+            for (int c = 0; c < 3; c++) {
+                int node = corner[3 * t + k];
+                x[k][c] = node < 0 ? middle[c] : p->X[c][node];
+            }
+        cap_fineness(m, x, fine);
+        pieces += fine[0] * fine[1];
+        if (draw) triangle_add(m, x, m->plane ? grey : ves_colour_mix(m->base, grey, 0.35), fine);
+    }
+    return pieces;
+}
+
+/* How many pieces the caps of a patch have; draws them too. */
+static long caps_add(const maker *m, int *corner, bool draw)
+{
+    long pieces = 0;
+    for (int end = 0; end < 2; end++)
+        if (m->p->cap[end] && !m->p->pole[end]) pieces += cap_add(m, end, corner, draw);
+    return pieces;
 }
 
 /* A segment of an end curve, brought forward so that the surface it bounds does not hide it. */
@@ -258,7 +359,7 @@ static void maker_init(maker *m, ves_scene *scene, const ves_figure *figure, int
 {
     const ves_figure_patch *p = &figure->patch[patch];
     double u = line_length(p, 0), v = line_length(p, 1);
-    *m = (maker){.scene = scene, .p = p, .base = ves_colour_patch(patch)};
+    *m = (maker){.scene = scene, .p = p, .base = ves_colour_patch(patch), .closed = figure->closed};
     m->plane = scene->plane ? scene->plane[patch] : NULL;
     m->fine[0] = refinement(u / p->nu * scene->camera.scale, cell);
     m->fine[1] = refinement(v / p->nv * scene->camera.scale, cell);
@@ -282,9 +383,10 @@ static void curves_add(const maker *m)
     const ves_figure_patch *p = m->p;
     for (int end = 0; end < 2; end++) {
         int row = end ? p->nu * p->columns : 0;
-        for (int j = 0; j < p->nv && !p->pole[end]; j++) segment_add(m, row + j, row + (j + 1) % p->columns);
+        for (int j = 0; j < p->nv && !p->pole[end] && !p->ends_meet; j++)
+            segment_add(m, row + j, row + (j + 1) % p->columns);
     }
-    for (int i = 0; i < p->nu && !p->periodic; i++) {
+    for (int i = 0; i < p->nu && !p->periodic && !p->sides_meet; i++) {
         segment_add(m, i * p->columns, (i + 1) * p->columns);
         segment_add(m, i * p->columns + p->nv, (i + 1) * p->columns + p->nv);
     }
@@ -318,13 +420,14 @@ static int compare(const void *a, const void *b)
     return (p->order > q->order) - (p->order < q->order);
 }
 
-static long pieces_needed(ves_scene *scene, const ves_figure *figure, double cell)
+static long pieces_needed(ves_scene *scene, const ves_figure *figure, double cell, int *corner)
 {
     long need = 1;
     for (int k = 0; k < figure->patches; k++) {
         maker m;
         maker_init(&m, scene, figure, k, cell);
-        need += (long)m.p->nu * m.p->nv * m.fine[0] * m.fine[1] + 2L * (m.p->nu + m.p->nv);
+        need += (long)m.p->nu * m.p->nv * m.fine[0] * m.fine[1] + 2L * (m.p->nu + m.p->nv) +
+                caps_add(&m, corner, false);
     }
     return need;
 }
@@ -340,14 +443,21 @@ ves_status ves_scene_build(ves_scene *scene, const ves_figure *figure, const ves
     camera_aim(&scene->camera, figure, view, scene->size);
     camera_fit(&scene->camera, figure, frame);
     if (quantity > 0) VES_TRY(colours_find(scene, figure, quantity, arena));
-    long need = pieces_needed(scene, figure, cell);
-    for (; need > PIECES && cell > 0 && cell < 100; need = pieces_needed(scene, figure, cell)) cell *= 1.5;
+    int most = 1;
+    for (int k = 0; k < figure->patches; k++)
+        if (figure->patch[k].nv > most) most = figure->patch[k].nv;
+    int *corner = ves_arena_take(arena, 3 * (size_t)most, sizeof *corner);
+    if (!corner) return VES_MEMORY;
+    long need = pieces_needed(scene, figure, cell, corner);
+    for (; need > PIECES && cell > 0 && cell < 100; need = pieces_needed(scene, figure, cell, corner))
+        cell *= 1.5;
     scene->piece = ves_arena_take(arena, (size_t)need, sizeof *scene->piece);
     if (!scene->piece) return VES_MEMORY;
     for (int k = 0; k < figure->patches; k++) {
         maker m;
         maker_init(&m, scene, figure, k, cell);
         surface_add(&m);
+        caps_add(&m, corner, true);
         curves_add(&m);
     }
     qsort(scene->piece, (size_t)scene->pieces, sizeof *scene->piece, compare);
