@@ -100,3 +100,60 @@ Test(cli_screen, optima_are_told_apart_by_their_variables)
     done(&o);
     root_remove();
 }
+
+Test(cli_screen, explain_knows_whatever_a_user_may_have_read)
+{
+    static const struct {
+        const char *word;
+        int code;
+        const char *says;
+    } list[] = {
+        {"atan2", 0, "the angle in radians, -pi to pi, of the point (x, y)"},
+        {"vtp", 0, "vesica export problem.yaml --to vtp"},
+        {"svg", 0, "--png shape.svg"},
+        {"export", 0, "vesica help export"},
+        {"radius", 0, "circle.radius"},
+        {"curves.circle.radius", 0, "circle.radius"},
+        {"curves.low.circle", 0, "a curve kind"},
+        {"search.anneal.c_end", 0, "frozen at"},
+        {"search.0.anneal.c_end", 0, "frozen at"},
+        {"patches.wall.conditions.2.scale", 0, "patches.conditions.scale"},
+        {"measures.E.integral.of", 0, "integral.of"},
+        {"FOLDED", 0, "the surface folds back on itself"},
+        {"VES_COARSE", 0, "quadrature:"},
+        {"self_intersects", 0, "the surface crosses itself"},
+        {"search.anneal.cooling", 2, "\"search.anneal\" has no \"cooling\": it has evaluations, chains"},
+        {"curves.circle.raduis", 2, "it has radius, axis, centre"},
+        {"atna2", 2, "did you mean \"atan2\"?"},
+        {"vpt", 2, "did you mean \"vtp\"?"},
+        {"...", 2, "nothing is known"},
+    };
+    root_make();
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++)
+        expect(vesica(NULL, "explain %s", list[k].word), list[k].code, list[k].code ? NULL : list[k].says,
+               list[k].code ? list[k].says : NULL, list[k].word);
+    root_remove();
+}
+
+Test(cli_screen, every_list_is_one_json_object_too)
+{
+    static const char *const list[] = {"measures", "curves", "moves",    "algorithms",
+                                       "formats",  "units",  "templates"};
+    root_make();
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
+        outcome o = vesica(NULL, "list %s --json", list[k]), plain = vesica(NULL, "list %s", list[k]);
+        cr_assert(eq(int, o.code, 0));
+        json j = json_of(o.out);
+        const ves_node *all = ves_node_find(j.root, list[k]);
+        int lines = 0;
+        for (const char *c = plain.out; *c; c++) lines += *c == '\n';
+        cr_assert(all && all->kind == VES_NODE_LIST && all->count == lines, "%s", o.out);
+        for (int i = 0; i < all->count; i++)
+            cr_assert(ves_node_find(all->item[i], "name") && ves_node_find(all->item[i], "about"), "%s",
+                      o.out);
+        json_done(&j);
+        done(&o);
+        done(&plain);
+    }
+    root_remove();
+}

@@ -102,7 +102,7 @@ static void expect_explained(const char *word, const char *part)
 {
     ves_arena arena = {0};
     bool found = false;
-    char *text = ves_schema_explain(&arena, word, NULL, &found);
+    char *text = ves_schema_explain(&arena, word, NULL, NULL, &found);
     cr_expect(text && found && strstr(text, part), "%s: want \"%s\", got:\n%s", word, part, text);
     ves_arena_destroy(&arena);
 }
@@ -130,10 +130,10 @@ Test(schema, explain_suggests_a_word_for_one_that_it_does_not_know)
 {
     ves_arena arena = {0};
     bool found = true;
-    char *text = ves_schema_explain(&arena, "cirle", NULL, &found);
+    char *text = ves_schema_explain(&arena, "cirle", NULL, NULL, &found);
     cr_expect(!found && !strcmp(text, "nothing is known about \"cirle\", did you mean \"circle\"?\n"), "%s",
               text);
-    text = ves_schema_explain(&arena, "", NULL, &found);
+    text = ves_schema_explain(&arena, "", NULL, NULL, &found);
     cr_expect(!found && text);
     ves_arena_destroy(&arena);
 }

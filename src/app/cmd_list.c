@@ -1,85 +1,122 @@
-/* vesica list, schema, explain, version: what there is. */
-#include <cairo.h>
-#include <nlopt.h>
+/* vesica list: what problem files may use. */
 #include <string.h>
-#include <yaml.h>
 
 #include "app/app.h"
 #include "app/table.h"
 #include "app/template.h"
 #include "base/text.h"
-#include "bridge/bridge.h"
 #include "formula/dimension.h"
 #include "measure/registry.h"
 #include "problem/schema.h"
 
+/* Where the items of a list go: into a table, or into JSON. */
+typedef struct sink {
+    app_table table;
+    ves_json *json; /* NULL: the table */
+} sink;
+
+static void begin(sink *s, const char *name, const char *about)
+{
+    if (s->json) {
+        ves_json_object(s->json, NULL);
+        ves_json_text(s->json, "name", name);
+        ves_json_text(s->json, "about", about);
+    } else {
+        app_table_cell(&s->table, "%s", name);
+    }
+}
+
+static void end(sink *s)
+{
+    if (s->json)
+        ves_json_end(s->json, '}');
+    else
+        app_table_end(&s->table);
+}
+
 /* "radius, axis": the keys that an entry understands. */
-static void keys_cell(app_table *t, const ves_key *key)
+static void keys(sink *s, const ves_key *key)
 {
     char text[300] = "";
     size_t at = 0;
+    if (s->json) ves_json_array(s->json, "keys");
     for (; key && key->name && at < sizeof text; key++) {
         int length = snprintf(text + at, sizeof text - at, "%s%s", at ? ", " : "", key->name);
         at += length > 0 ? (size_t)length : 0;
+        if (s->json) ves_json_text(s->json, NULL, key->name);
     }
-    app_table_cell(t, "%s", text);
+    if (s->json)
+        ves_json_end(s->json, ']');
+    else
+        app_table_cell(&s->table, "%s", text);
 }
 
-static void operations(app_table *t, bool move)
+static void plain(sink *s, const char *name, const char *about)
+{
+    begin(s, name, about);
+    if (!s->json) app_table_cell(&s->table, "%s", about);
+    end(s);
+}
+
+static void operations(sink *s, bool move)
 {
     for (const ves_curve_op *const *op = ves_curve_ops(); *op; op++) {
         if ((*op)->move != move) continue;
-        app_table_cell(t, "%s", (*op)->name);
-        app_table_cell(t, "%s", (*op)->about);
-        keys_cell(t, (*op)->keys);
+        begin(s, (*op)->name, (*op)->about);
+        if (!s->json) app_table_cell(&s->table, "%s", (*op)->about);
+        keys(s, (*op)->keys);
+        end(s);
     }
 }
 
-static void curves(app *a, app_table *t)
+static void curves(app *a, sink *s)
 {
     (void)a;
-    operations(t, false);
+    operations(s, false);
 }
 
-static void moves(app *a, app_table *t)
+static void moves(app *a, sink *s)
 {
     (void)a;
-    operations(t, true);
+    operations(s, true);
 }
 
-static void measures(app *a, app_table *t)
+static void measures(app *a, sink *s)
 {
     const ves_measure *const *lists[2] = {ves_measures(), a->measure};
     for (int l = 0; l < 2; l++)
         for (const ves_measure *const *m = lists[l]; m && *m; m++) {
-            app_table_cell(t, "%s", (*m)->name);
-            app_table_cell(t, "%s%s%s", (*m)->about, (*m)->closed ? " (closed shapes)" : "",
-                           (*m)->gradient ? "" : " (no gradient)");
-            keys_cell(t, (*m)->keys);
+            begin(s, (*m)->name, (*m)->about);
+            if (!s->json)
+                app_table_cell(&s->table, "%s%s%s", (*m)->about, (*m)->closed ? " (closed shapes)" : "",
+                               (*m)->gradient ? "" : " (no gradient)");
+            keys(s, (*m)->keys);
+            if (s->json) ves_json_flag(s->json, "closed", (*m)->closed);
+            if (s->json) ves_json_flag(s->json, "gradient", (*m)->gradient);
+            end(s);
         }
 }
 
-static void algorithms(app *a, app_table *t)
+static void algorithms(app *a, sink *s)
 {
     (void)a;
     for (const ves_algorithm *k = ves_search_algorithms(); k->name; k++) {
-        app_table_cell(t, "%s", k->name);
-        app_table_cell(t, "%s", k->about);
-        app_table_end(t);
+        begin(s, k->name, k->about);
+        if (!s->json) app_table_cell(&s->table, "%s", k->about);
+        if (s->json) ves_json_flag(s->json, "gradient", k->gradient);
+        if (s->json) ves_json_flag(s->json, "inequality", k->inequality);
+        if (s->json) ves_json_flag(s->json, "equality", k->equality);
+        end(s);
     }
 }
 
-static void formats(app *a, app_table *t)
+static void formats(app *a, sink *s)
 {
     (void)a;
-    for (const ves_format *const *f = ves_formats(); *f; f++) {
-        app_table_cell(t, "%s", (*f)->name);
-        app_table_cell(t, "%s", (*f)->about);
-        app_table_end(t);
-    }
+    for (const ves_format *const *f = ves_formats(); *f; f++) plain(s, (*f)->name, (*f)->about);
 }
 
-static void units(app *a, app_table *t)
+static void units(app *a, sink *s)
 {
     int count;
     const char *const *name = ves_unit_names(&count);
@@ -87,32 +124,47 @@ static void units(app *a, app_table *t)
     for (int k = 0; k < count; k++) {
         ves_dim dim;
         double factor;
-        char text[48];
+        char text[48], about[96];
         if (!ves_dim_read(name[k], &dim, &factor)) continue;
         ves_dim_text(dim, text);
-        app_table_cell(t, "%s", name[k]);
-        app_table_cell(t, "%.15g%s%s", factor, strcmp(text, "1") ? " " : "", strcmp(text, "1") ? text : "");
-        app_table_end(t);
+        bool bare = !strcmp(text, "1");
+        snprintf(about, sizeof about, "%.15g%s%s", factor, bare ? "" : " ", bare ? "" : text);
+        begin(s, name[k], about);
+        if (!s->json) app_table_cell(&s->table, "%s", about);
+        if (s->json) ves_json_number(s->json, "factor", factor);
+        if (s->json) ves_json_text(s->json, "unit", text);
+        end(s);
+    }
+}
+
+static void templates(app *a, sink *s)
+{
+    (void)a;
+    for (const app_template *t = app_templates; t->name; t++) {
+        char title[200];
+        app_template_title(t, title, sizeof title);
+        plain(s, t->name, title);
     }
 }
 
 static const struct list {
     const char *name;
-    void (*fill)(app *a, app_table *t);
-} lists[] = {{"measures", measures}, {"curves", curves}, {"moves", moves},   {"algorithms", algorithms},
-             {"formats", formats},   {"units", units},   {"templates", NULL}};
+    void (*fill)(app *a, sink *s);
+} lists[] = {{"measures", measures}, {"curves", curves}, {"moves", moves},        {"algorithms", algorithms},
+             {"formats", formats},   {"units", units},   {"templates", templates}};
 
 enum { LISTS = sizeof lists / sizeof *lists };
 
 static void list_print(app *a, const struct list *l)
 {
-    app_table t = {.align = "lll"};
-    if (!l->fill) {
-        app_templates_list(stdout);
-        return;
-    }
-    l->fill(a, &t);
-    app_table_print(&t, stdout);
+    ves_json json = {.out = stdout};
+    sink s = {.table = {.align = "lll"}, .json = a->options.json ? &json : NULL};
+    if (s.json) ves_json_object(&json, NULL);
+    if (s.json) ves_json_array(&json, l->name);
+    l->fill(a, &s);
+    if (s.json) ves_json_end(&json, ']');
+    if (s.json) ves_json_end(&json, '}');
+    app_table_print(&s.table, stdout);
 }
 
 int app_list(app *a)
@@ -128,49 +180,4 @@ int app_list(app *a)
     if (near >= 0) return app_fail(a, VES_USAGE, "no list \"%s\", did you mean \"%s\"?", word, name[near]);
     return app_fail(a, VES_USAGE,
                     "list what? measures, curves, moves, algorithms, formats, units or templates");
-}
-
-static int text_print(app *a, const char *text)
-{
-    if (!text) return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
-    size_t length = strlen(text);
-    fputs(text, stdout);
-    if (length && text[length - 1] != '\n') putchar('\n');
-    return APP_DONE;
-}
-
-int app_schema(app *a)
-{
-    return text_print(a, a->options.reference ? ves_schema_reference(&a->arena, a->measure)
-                                              : ves_schema_json(&a->arena, a->measure));
-}
-
-int app_explain(app *a)
-{
-    bool found = false;
-    const char *text = ves_schema_explain(&a->arena, a->operand[0], a->measure, &found);
-    if (text && !found) return app_fail(a, VES_NAME, "%.*s", (int)strcspn(text, "\n"), text);
-    return text_print(a, text);
-}
-
-int app_version(app *a)
-{
-    int major, minor, patch;
-    char nlopt[32];
-    nlopt_version(&major, &minor, &patch);
-    snprintf(nlopt, sizeof nlopt, "%d.%d.%d", major, minor, patch);
-    const char *part[][2] = {{"vesica", VESICA_VERSION},        {"compiler", __VERSION__},
-                             {"CGAL", ves_bridge_version()},    {"NLopt", nlopt},
-                             {"cairo", cairo_version_string()}, {"libyaml", yaml_get_version_string()}};
-    enum { PARTS = sizeof part / sizeof *part };
-    ves_json json = {.out = stdout};
-    if (a->options.json) ves_json_object(&json, NULL);
-    for (int k = 0; k < PARTS; k++) {
-        if (a->options.json)
-            ves_json_text(&json, part[k][0], part[k][1]);
-        else
-            printf("%-9s %s\n", part[k][0], part[k][1]);
-    }
-    if (a->options.json) ves_json_end(&json, '}');
-    return APP_DONE;
 }

@@ -13,25 +13,24 @@ const app_template app_templates[] = {
 };
 
 /* What stands after title: in its text. */
-static const char *title_of(const app_template *t, int *length)
+void app_template_title(const app_template *t, char *title, size_t size)
 {
-    const char *title = strstr(t->text, "title: ");
-    if (!title) return NULL;
-    title += strlen("title: ");
-    *length = (int)strcspn(title, "\n");
-    return title;
+    static const char key[] = "title: ";
+    const char *text = strstr(t->text, key);
+    if (text) text += sizeof key - 1;
+    snprintf(title, size, "%.*s", text ? (int)strcspn(text, "\n") : 0, text ? text : "");
 }
 
-void app_templates_list(FILE *out)
+static void templates_list(void)
 {
-    app_table t = {.align = "ll"};
-    for (const app_template *k = app_templates; k->name; k++) {
-        int length = 0;
-        const char *title = title_of(k, &length);
-        app_table_cell(&t, "%s", k->name);
-        app_table_cell(&t, "%.*s", length, title ? title : "");
+    app_table table = {.align = "ll"};
+    for (const app_template *t = app_templates; t->name; t++) {
+        char title[200];
+        app_template_title(t, title, sizeof title);
+        app_table_cell(&table, "%s", t->name);
+        app_table_cell(&table, "%s", title);
     }
-    app_table_print(&t, out);
+    app_table_print(&table, stdout);
 }
 
 static const app_template *find(app *a, const char *word, int *code)
@@ -76,7 +75,7 @@ int app_new(app *a)
 {
     int code = APP_DONE;
     if (!a->operands) {
-        app_templates_list(stdout);
+        templates_list();
         return APP_DONE;
     }
     const app_template *t = find(a, a->operand[0], &code);

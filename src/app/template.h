@@ -10,6 +10,6 @@ typedef struct app_template {
 
 extern const app_template app_templates[]; /* ends with a NULL name */
 
-void app_templates_list(FILE *out);
+void app_template_title(const app_template *t, char *title, size_t size);
 
 #endif

@@ -27,6 +27,7 @@ typedef struct ves_function {
     ves_operation operation;
     int least, most; /* arguments; more than two are folded from the left */
     ves_rule rule;
+    const char *about; /* how it is called, and what it gives */
 } ves_function;
 
 const ves_function *ves_function_find(const ves_lexer *lexer); /* by the token's name; NULL */

@@ -151,3 +151,46 @@ void ves_describe_example(ves_writer *writer, const char *name, const ves_key *k
     }
     ves_write(writer, "}");
 }
+
+const char *ves_describe_status(ves_status status)
+{
+    switch (status) {
+    case VES_DEGENERATE:
+        return "Two tangents are parallel, or one is zero: curves meet, or a slope has no length. Keep the "
+               "lengths of "
+               "slopes away\n      from 0 by their ranges.";
+    case VES_FOLDED:
+        return "The normal turns over: rows of the surface overtake each other, often because slopes are too "
+               "long. "
+               "Narrower ranges\n      help; validity: {jacobian: any} lets such shapes pass.";
+    case VES_INVERTED:
+        return "The volume is negative: curves have changed places. Narrow the ranges so that they cannot.";
+    case VES_NARROW:
+        return "Asked for by validity: {least_radius: ...}.";
+    case VES_NOT_MONOTONE:
+        return "Asked for by validity: {monotone: ...}.";
+    case VES_NO_ROOT:
+        return "Both ends of the interval `in` of `solve` lie on one side of its equation. Widen it, or "
+               "narrow the "
+               "ranges of the\n      variables.";
+    case VES_NO_NUMBER:
+        return "A formula or a measure gave infinity, 0/0 or the root of a negative number.";
+    case VES_SELF_INTERSECTS:
+    case VES_TOUCHES:
+        return "Looked for at each best, not at every candidate; validity: {self_intersection: never} leaves "
+               "it out.";
+    case VES_COARSE:
+        return "A best is measured again with twice as many nodes. Give more: quadrature: {u: 32, v: 64}.";
+    case VES_CUT:
+        return "No fault: the search needed no more of this candidate.";
+    case VES_OUTSIDE:
+        return "A formula of variables leads out of the range of its key, as a radius below 0. Narrow the "
+               "ranges.";
+    case VES_SINGULAR:
+        return "Two conditions of a patch say the same, as two positions at one end.";
+    case VES_FAULT:
+        return "Please report it, with the problem file.";
+    default:
+        return "";
+    }
+}

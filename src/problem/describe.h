@@ -15,6 +15,9 @@ void ves_describe_limits(ves_writer *writer, const ves_key *key);
 /* An example of an operation made of its required keys: {circle: {radius: 1}}. */
 void ves_describe_example(ves_writer *writer, const char *name, const ves_key *keys);
 
+/* What a status comes from and what helps; "" where the sentence says all. */
+const char *ves_describe_status(ves_status status);
+
 extern const char ves_describe_formulas[]; /* how formulas are written, Markdown */
 extern const char ves_describe_names[];    /* what may be a name */
 

@@ -1,8 +1,10 @@
 /* Help on one word: all that the tables know about it. */
 #include <string.h>
+#include <strings.h>
 
 #include "base/text.h"
 #include "formula/dimension.h"
+#include "formula/parser.h"
 #include "measure/registry.h"
 #include "problem/describe.h"
 #include "vesica/search.h"
@@ -14,6 +16,8 @@ typedef struct help {
     const char *word;
     const ves_measure *const *plugin;
     bool found;
+    const char *parent;           /* the word without its last part; NULL: it has one part */
+    ves_writer keys;              /* what the parent has */
     const char *candidate[WORDS]; /* all words there are */
     int candidates;
 } help;
@@ -24,18 +28,44 @@ static bool is_word(help *h, const char *name)
     return !strcmp(name, h->word);
 }
 
-/* Is the asked word the path, or the end of it after a dot? */
-static bool is_path(const help *h, const char *path)
+/* Does path end in the words of `end`, whole? "anneal.s" is an end of "search.anneal.s". */
+static bool ends(const char *path, const char *end)
 {
-    size_t length = strlen(path), asked = strlen(h->word);
-    if (asked > length || strcmp(path + length - asked, h->word)) return false;
+    size_t length = strlen(path), asked = strlen(end);
+    if (!asked || asked > length || strcmp(path + length - asked, end)) return false;
     return asked == length || path[length - asked - 1] == '.';
+}
+
+/* Is it the path with names and numbers of the file in between: patches.wall.conditions.0.scale? */
+static bool passes(const char *word, const char *path)
+{
+    bool last = false;
+    size_t first = strcspn(path, ".");
+    if (strncmp(word, path, first) || (word[first] && word[first] != '.')) return false;
+    for (const char *w = word, *p = path;;) {
+        size_t a = strcspn(w, "."), b = strcspn(p, ".");
+        last = *p && a == b && !strncmp(w, p, a);
+        if (last) p += b + (p[b] == '.');
+        if (!w[a]) return last && !*p;
+        w += a + 1;
+    }
+}
+
+static bool is_path(const char *word, const char *path)
+{
+    return ends(path, word) || passes(word, path);
 }
 
 static void heading(help *h)
 {
     if (h->found) ves_write(&h->writer, "\n");
     h->found = true;
+}
+
+/* One of those that the parent has. */
+static void key_name(help *h, const char *name)
+{
+    ves_write(&h->keys, "%s%s", h->keys.length ? ", " : "", name);
 }
 
 static void key_line(ves_writer *w, const ves_key *key)
@@ -84,7 +114,9 @@ static void walk(help *h, const ves_entry *table, const char *path)
         h->writer.failed = h->writer.failed || w.failed;
         ves_memory_free(w.text);
         is_word(h, e->key.name);
-        if (is_path(h, inner)) entry_help(h, e, inner);
+        bool again = !strncmp(inner, "test.", 5) && strncmp(h->word, "test", 4); /* as without it */
+        if (is_path(h->word, inner) && !(again && h->found)) entry_help(h, e, inner);
+        if (*path && h->parent && is_path(h->parent, path) && !again) key_name(h, e->key.name);
         bool item = (int)e->key.kind == VES_LIST || (int)e->key.kind == VES_NAMED;
         const ves_entry *below = item && e->table ? e->table->table : e->table;
         walk(h, below, inner);
@@ -101,12 +133,36 @@ static void operation_help(help *h, const char *what, const char *name, const ch
     for (const ves_key *key = keys; key && key->name; key++) key_line(&h->writer, key);
 }
 
+/* The key of an operation: radius, circle.radius, curves.ring.circle.radius. */
+static void one_key_help(help *h, const char *name, const ves_key *keys)
+{
+    bool parent = h->parent && ends(h->parent, name);
+    const char *dot = strrchr(h->word, '.');
+    for (const ves_key *key = keys; key && key->name; key++) {
+        if (parent) key_name(h, key->name);
+        bool same = parent && !strcmp(dot + 1, key->name);
+        if (!is_word(h, key->name) && !same) continue;
+        heading(h);
+        ves_write(&h->writer, "%s.%s\n", name, key->name);
+        key_line(&h->writer, key);
+    }
+}
+
+/* curves.ring.circle is the word circle too. */
+static bool is_operation(help *h, const char *name)
+{
+    const char *dot = strrchr(h->word, '.');
+    return is_word(h, name) || (dot && !strcmp(dot + 1, name));
+}
+
 static void curve_help(help *h)
 {
-    for (const ves_curve_op *const *op = ves_curve_ops(); *op; op++)
-        if (is_word(h, (*op)->name))
+    for (const ves_curve_op *const *op = ves_curve_ops(); *op; op++) {
+        if (is_operation(h, (*op)->name))
             operation_help(h, (*op)->move ? "a move of a curve" : "a curve kind", (*op)->name, (*op)->about,
                            (*op)->keys);
+        one_key_help(h, (*op)->name, (*op)->keys);
+    }
 }
 
 static void measure_help(help *h)
@@ -114,7 +170,8 @@ static void measure_help(help *h)
     const ves_measure *const *lists[2] = {ves_measures(), h->plugin};
     for (int l = 0; l < 2; l++)
         for (const ves_measure *const *m = lists[l]; m && *m; m++) {
-            if (!is_word(h, (*m)->name)) continue;
+            one_key_help(h, (*m)->name, (*m)->keys);
+            if (!is_operation(h, (*m)->name)) continue;
             operation_help(h, "a measure", (*m)->name, (*m)->about, (*m)->keys);
             if ((*m)->surface) key_line(&h->writer, &ves_schema_over);
             if ((*m)->unit && *(*m)->unit != '*')
@@ -153,8 +210,47 @@ static void unit_help(help *h)
               h->word, factor, ves_dim_plain(dim) ? "" : " ", ves_dim_plain(dim) ? "" : text, h->word);
 }
 
-static void topic_help(help *h)
+static void function_help(help *h)
 {
+    for (int k = 0; ves_function_at(k); k++) {
+        const ves_function *f = ves_function_at(k);
+        if (!is_word(h, f->name)) continue;
+        heading(h);
+        ves_write(&h->writer, "%s: a function of formulas\n      %s\n", f->name, f->about);
+    }
+}
+
+/* FOLDED, folded, VES_FOLDED, or its sentence. */
+static void status_help(help *h)
+{
+#define STATUS(name, value, sentence) {#name, sentence, value},
+    static const struct {
+        const char *name, *sentence;
+        int value;
+    } list[] = {VES_STATUS_LIST(STATUS)};
+#undef STATUS
+    const char *word = strncmp(h->word, "VES_", 4) ? h->word : h->word + 4;
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
+        if (list[k].value == VES_OK) continue;
+        if (!is_word(h, list[k].name) && strcasecmp(word, list[k].name) && strcmp(word, list[k].sentence))
+            continue;
+        heading(h);
+        ves_write(&h->writer, "%s: %s\n      %s\n", list[k].name,
+                  list[k].value > 0 ? "why a candidate could not be measured, or was refused"
+                                    : "why a command failed",
+                  list[k].sentence);
+        const char *advice = ves_describe_status((ves_status)list[k].value);
+        if (*advice) ves_write(&h->writer, "      %s\n", advice);
+    }
+}
+
+static void topic_help(help *h, const ves_topic *more)
+{
+    for (; more && more->word; more++)
+        if (is_word(h, more->word)) {
+            heading(h);
+            ves_write(&h->writer, "%s: %s\n", more->word, more->text);
+        }
     static const struct {
         const char *word, *text;
     } topic[] = {{"formula", ves_describe_formulas},
@@ -167,25 +263,45 @@ static void topic_help(help *h)
         }
 }
 
-char *ves_schema_explain(ves_arena *arena, const char *word, const ves_measure *const *plugin, bool *found)
+/* What was meant: a word near to all of it or, of a path, near to its last part. */
+static void suggest(help *h, const char *word)
+{
+    const char *dot = strrchr(word, '.'), *part = dot ? dot + 1 : word;
+    int near = strlen(word) < 64 ? ves_text_nearest(word, h->candidate, h->candidates) : -1;
+    if (near < 0 && dot && strlen(part) < 64) near = ves_text_nearest(part, h->candidate, h->candidates);
+    if (h->keys.length) {
+        ves_write(&h->writer, "\"%.80s\" has no \"%.80s\": it has %s\n", h->parent, part, h->keys.text);
+        return;
+    }
+    ves_write(&h->writer, "nothing is known about \"%.80s\"", word);
+    if (near >= 0)
+        ves_write(&h->writer, ", did you mean \"%s\"?", h->candidate[near]);
+    else
+        ves_write(&h->writer, " (vesica list; vesica schema --reference has all words)");
+    ves_write(&h->writer, "\n");
+}
+
+char *ves_schema_explain(ves_arena *arena, const char *word, const ves_measure *const *plugin,
+                         const ves_topic *more, bool *found)
 {
     help *h = ves_memory_take(sizeof *h);
     if (!h) return NULL;
+    const char *dot = strrchr(word, '.');
     h->word = word;
+    h->parent = dot && dot > word ? ves_arena_text(arena, word, (size_t)(dot - word)) : NULL;
     h->plugin = plugin;
     walk(h, ves_schema_root.table, "");
     curve_help(h);
     measure_help(h);
     algorithm_help(h);
     unit_help(h);
-    topic_help(h);
+    function_help(h);
+    status_help(h);
+    topic_help(h, more);
     *found = h->found;
-    if (!h->found) {
-        int near = strlen(word) < 64 ? ves_text_nearest(word, h->candidate, h->candidates) : -1;
-        ves_write(&h->writer, "nothing is known about \"%.80s\"%s%s%s\n", word,
-                  near < 0 ? "" : ", did you mean \"", near < 0 ? "" : h->candidate[near],
-                  near < 0 ? "" : "\"?");
-    }
+    if (!h->found) suggest(h, word);
+    h->writer.failed = h->writer.failed || h->keys.failed || (dot && dot > word && !h->parent);
+    ves_memory_free(h->keys.text);
     char *text = ves_writer_finish(&h->writer, arena);
     ves_memory_free(h);
     return text;

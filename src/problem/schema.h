@@ -51,8 +51,15 @@ char *ves_schema_json(ves_arena *arena, const ves_measure *const *plugin); /* JS
 char *ves_schema_reference(ves_arena *arena,
                            const ves_measure *const *plugin); /* the manual's reference chapter, Markdown */
 
-/* Help on a key (minimize, conditions.scale), a curve kind, a move, a measure, a stage, an algorithm or a
- * unit. *found tells whether the word is known; otherwise the text suggests another. */
-char *ves_schema_explain(ves_arena *arena, const char *word, const ves_measure *const *plugin, bool *found);
+/* A word that the problem room does not know of: a format, a command. */
+typedef struct ves_topic {
+    const char *word, *text;
+} ves_topic;
+
+/* Help on a key (minimize, conditions.scale, patches.wall.operator.a), a curve kind, a move, a measure, a
+ * stage, an algorithm, a unit, a function, a status, or one of `more`, which ends with a NULL word (NULL:
+ * none). *found tells whether the word is known; otherwise the text suggests another. */
+char *ves_schema_explain(ves_arena *arena, const char *word, const ves_measure *const *plugin,
+                         const ves_topic *more, bool *found);
 
 #endif
