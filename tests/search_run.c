@@ -5,52 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "memory.h"
 #include "search_problems.h"
 
 #pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
-
-/* ---- an allocator that counts, and fails on demand; not under a sanitizer, which brings its own ---- */
-
-#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-#define COUNTING 0
-#else
-#define COUNTING 1
-void *__libc_malloc(size_t size);
-void *__libc_calloc(size_t count, size_t size);
-void *__libc_realloc(void *block, size_t size);
-void __libc_free(void *block);
-static long live, asked, fail_at;
-static bool counting;
-
-void *malloc(size_t size)
-{
-    void *block = __libc_malloc(size);
-    live += counting && block;
-    return block;
-}
-
-void *calloc(size_t count, size_t size)
-{
-    if (counting && ++asked == fail_at) return NULL;
-    void *block = __libc_calloc(count, size);
-    live += counting && block;
-    return block;
-}
-
-void *realloc(void *old, size_t size)
-{
-    if (counting && ++asked == fail_at) return NULL;
-    void *block = __libc_realloc(old, size);
-    live += counting && block && !old;
-    return block;
-}
-
-void free(void *block)
-{
-    live -= counting && block;
-    __libc_free(block);
-}
-#endif
 
 /* ---- the same bytes ---- */
 
@@ -523,9 +481,7 @@ Test(search_run, options_of_zeros_are_the_defaults)
 
 /* ---- memory ---- */
 
-#if COUNTING
-/* Every allocation of ours fails once; nothing is lost, and the answer is VES_MEMORY. A long run, so one
- * process for all. */
+/* Every allocation fails once, NLopt's included; nothing is lost, and the answer is VES_MEMORY. */
 Test(search_run, failing_allocations_are_survived)
 {
     for (int hooked = 0; hooked < 2; hooked++) {
@@ -538,19 +494,16 @@ Test(search_run, failing_allocations_are_survived)
         long last = 2;
         for (long k = 0; k < last; k++) { /* 0: none fails, and they are counted */
             ves_search_result *r = NULL;
-            live = asked = 0;
-            fail_at = k;
-            counting = true;
+            memory_begin(k, true);
             ves_status status = run(&g, &o, hooked ? &hooks : NULL, &r);
             bool any = r != NULL;
             ves_search_result_destroy(r);
-            counting = false;
-            if (k == 0) last = asked + 1;
-            cr_assert(live == 0, "allocation %ld of %ld: %ld blocks lost", k, last, live);
+            memory_end();
+            if (k == 0) last = memory.asked + 1;
+            cr_assert(memory.live == 0, "allocation %ld of %ld: %ld blocks lost", k, last, memory.live);
             cr_assert(k ? status == VES_MEMORY && any == false : status == VES_OK && any,
                       "allocation %ld of %ld: status %d", k, last, status);
         }
         cr_expect(last > 3, "%ld", last);
     }
 }
-#endif

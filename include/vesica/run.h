@@ -40,9 +40,9 @@ typedef struct ves_run_hooks {
     void *data;
 } ves_run_hooks;
 
-/* diag gets warnings and errors. VES_OK: see interrupted, feasible, passed. VES_IO: the result holds, but its
- * folder could not be made or filled. VES_USAGE, VES_IO without a result: `out` cannot be used; nothing was
- * searched. Whenever there is no result, *run is NULL. */
+/* diag gets warnings and errors. VES_OK: see interrupted, feasible, passed. VES_IO or VES_MEMORY with a
+ * result: it holds, but its folder could not be made or filled. VES_USAGE, VES_IO without a result: `out`
+ * cannot be used; nothing was searched. Whenever there is no result, *run is NULL. */
 ves_status ves_run_create(const ves_problem *problem, const ves_run_options *options,
                           const ves_run_hooks *hooks, ves_run **run, ves_diag *diag);
 void ves_run_destroy(ves_run *run);

@@ -214,14 +214,17 @@ ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *o
         VES_TRY(ves_plan_quadrature(problem, chosen.quadrature, &change, diag));
     }
     ves_plan *plan = ves_memory_take(sizeof *plan);
-    if (!plan) return ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "out of memory");
+    if (!plan)
+        return ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s", ves_status_text(VES_MEMORY));
     plan->problem = problem;
+    int before = ves_diag_errors(diag);
     ves_status status = build(plan, &chosen, diag);
     if (status == VES_OK) {
         *out = plan;
         return VES_OK;
     }
-    if (status == VES_MEMORY) ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "out of memory");
+    if (status == VES_MEMORY && ves_diag_errors(diag) == before)
+        ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s", ves_status_text(VES_MEMORY));
     ves_plan_destroy(plan);
     return status;
 }

@@ -40,6 +40,7 @@ __attribute__((format(printf, 5, 0))) static void add(ves_reader *reader, ves_se
                                                       va_list list)
 {
     char text[TEXT];
+    if (reader->status == VES_MEMORY) return; /* what seems wrong from then on may only be missing */
     if (severity == VES_ERROR) reader->errors++;
     if (severity == VES_ERROR && reader->status == VES_OK) reader->status = status;
     if (reader->messages >= MESSAGES) return;

@@ -28,8 +28,11 @@ foreach(file ${tests})
   add_test(NAME ${name} COMMAND ${under} $<TARGET_FILE:test_${name}>)
   set_tests_properties(${name} PROPERTIES TIMEOUT 300)
 endforeach()
-# This one counts our calls of the allocator and makes them fail.
-target_link_options(test_allocation PRIVATE -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc)
+# These count the calls of the allocator and make them fail (tests/memory.h).
+foreach(name allocation problem_text search_run)
+  target_link_options(test_${name} PRIVATE -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free)
+endforeach()
+target_link_options(test_allocation PRIVATE -Wl,--wrap=ves_arena_take,--wrap=ves_arena_doubles,--wrap=ves_arena_text)
 
 if(TARGET vesica)
   file(GLOB_RECURSE problems CONFIGURE_DEPENDS problems/*.yaml)

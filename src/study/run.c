@@ -174,7 +174,7 @@ static ves_status measure(study *s, const double *x, int level, ves_design *desi
 static ves_status start_measure(study *s)
 {
     ves_run *run = s->run;
-    VES_TRY(ves_design_init(s->problem, &run->arena, &run->start));
+    if (ves_design_init(s->problem, &run->arena, &run->start) != VES_OK) return complain(s->diag, VES_MEMORY);
     VES_TRY(measure(s, run->start.x, 0, &run->start));
     char text[SENTENCE];
     ves_status status = run->start.status;
@@ -210,7 +210,7 @@ static void folder_begin(study *s)
     s->tracer = (ves_tracer){.problem = s->problem, .which = o->trace, .diag = s->diag};
     char *path = ves_folder_path(run->folder, "trace.jsonl", &run->arena);
     if (s->files != VES_OK || !run->searched || o->trace == VES_TRACE_NONE) return;
-    s->files = path ? ves_tracer_begin(&s->tracer, path, &run->arena) : VES_MEMORY;
+    s->files = path ? ves_tracer_begin(&s->tracer, path, &run->arena) : complain(s->diag, VES_MEMORY);
 }
 
 static void folder_end(study *s)
@@ -341,8 +341,7 @@ static ves_status result_take(study *s, const ves_search_result *r)
     run->any = r->any;
     run->evaluations = r->evaluations;
     run->gradients = r->gradients;
-    VES_TRY(words_take(s, r));
-    VES_TRY(optima_take(s, r));
+    if (words_take(s, r) != VES_OK || optima_take(s, r) != VES_OK) return complain(s->diag, VES_MEMORY);
     VES_TRY(measure(s, r->x, 1, &run->finer));
     VES_TRY(measure(s, r->x, 0, &run->best));
     run->feasible = r->feasible && run->best.status == VES_OK;
@@ -364,7 +363,7 @@ static ves_status search(study *s)
     if (!result) return complain(s->diag, status);
     status = result_take(s, result);
     ves_search_result_destroy(result);
-    return status == VES_MEMORY ? complain(s->diag, status) : status;
+    return status;
 }
 
 /* --- without a search --- */

@@ -19,7 +19,9 @@ ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, ves_arena *are
     tracer->best = (ves_verdict){.status = VES_NO_NUMBER};
     tracer->room = (size_t)(FIXED + EACH * tracer->problem->variables);
     tracer->line = ves_arena_take(arena, tracer->room, 1);
-    if (!tracer->line) return VES_MEMORY;
+    if (!tracer->line)
+        return ves_diag_add(tracer->diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s",
+                            ves_status_text(VES_MEMORY));
     tracer->out = fopen(path, "wbx");
     return tracer->out ? VES_OK : ves_file_complain(path, errno, tracer->diag);
 }
