@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/arena.h"
+#include "fonts.h"
 #include "memory.h"
 #include "problem/problem.h"
 #include "surface/figure.h"

@@ -4,24 +4,11 @@
 #pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
 
 #include "files.h"
+#include "fonts.h"
 #include "output/output.h"
 #include "shapes.h"
 
 static char first_message[1024];
-
-/* fontconfig keeps what it has read about the fonts until the process ends, and nothing of it points there.
- */
-const char *__lsan_default_suppressions(void);
-const char *__asan_default_options(void);
-const char *__lsan_default_suppressions(void)
-{
-    return "leak:libfontconfig\n";
-}
-
-const char *__asan_default_options(void)
-{
-    return "print_suppressions=0"; /* what counts as a finding is that a log is there */
-}
 
 static ves_status picture(ves_figure *figure, const ves_view *view, const char *path)
 {

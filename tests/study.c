@@ -15,25 +15,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "fonts.h"
 #include "problem/tree.h"
 #include "study/folder.h"
 #include "study/open.h"
 #include "study/run.h"
-
-/* fontconfig keeps what it has read about the fonts until the process ends, and nothing of it points there.
- */
-const char *__lsan_default_suppressions(void);
-const char *__asan_default_options(void);
-
-const char *__lsan_default_suppressions(void)
-{
-    return "leak:libfontconfig\n";
-}
-
-const char *__asan_default_options(void)
-{
-    return "print_suppressions=0";
-}
 
 static const double PI = 3.14159265358979323846;
 

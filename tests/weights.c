@@ -53,7 +53,47 @@ static void member(int m, int d, double lam, double u, mpfr_t out)
 typedef struct oracle {
     int n;
     mpfr_t a[MOST][2 * MOST]; /* the condition matrix and, after solving, its inverse in the right half */
+    mpfr_t slope[MOST][MOST]; /* the derivative of that inverse with respect to lam */
 } oracle;
+
+/* d/dlam of member m: u^k e^{s lam u} becomes s u^(k+1) e^{s lam u}, s times the member after next. The
+ * cardinal functions are even in lam (the operator holds lam^2): at 0 nothing changes. */
+static void member_slope(int m, int d, double lam, double u, mpfr_t out)
+{
+    member(m + 2, d, lam, u, out);
+    if (m % 2) mpfr_neg(out, out, MPFR_RNDN);
+    if (lam == 0) mpfr_set_ui(out, 0, MPFR_RNDN);
+}
+
+/* d A^-1 = -A^-1 dA A^-1 */
+static void oracle_slopes(oracle *o, const ves_layout *layout, double lam)
+{
+    int n = o->n;
+    mpfr_t change[MOST][MOST], f; /* dA A^-1 */
+    mpfr_init2(f, bits(lam));
+    for (int r = 0; r < n; r++)
+        for (int j = 0; j < n; j++) {
+            mpfr_init2(change[r][j], bits(lam));
+            mpfr_set_ui(change[r][j], 0, MPFR_RNDN);
+            for (int m = 0; m < n; m++) {
+                member_slope(m, layout->knot[r].derivative, lam, layout->knot[r].u, f);
+                mpfr_mul(f, f, o->a[m][n + j], MPFR_RNDN);
+                mpfr_add(change[r][j], change[r][j], f, MPFR_RNDN);
+            }
+        }
+    for (int m = 0; m < n; m++)
+        for (int j = 0; j < n; j++) {
+            mpfr_init2(o->slope[m][j], bits(lam));
+            mpfr_set_ui(o->slope[m][j], 0, MPFR_RNDN);
+            for (int r = 0; r < n; r++) {
+                mpfr_mul(f, o->a[m][n + r], change[r][j], MPFR_RNDN);
+                mpfr_sub(o->slope[m][j], o->slope[m][j], f, MPFR_RNDN);
+            }
+        }
+    for (int r = 0; r < n; r++)
+        for (int j = 0; j < n; j++) mpfr_clear(change[r][j]);
+    mpfr_clear(f);
+}
 
 static void oracle_solve(oracle *o, const ves_layout *layout, double lam)
 {
@@ -81,6 +121,7 @@ static void oracle_solve(oracle *o, const ves_layout *layout, double lam)
             }
     }
     mpfr_clear(f);
+    oracle_slopes(o, layout, lam);
 }
 
 static double oracle_value(const oracle *o, int j, int d, double lam, double u)
@@ -98,10 +139,32 @@ static double oracle_value(const oracle *o, int j, int d, double lam, double u)
     return value;
 }
 
+/* d/dlam of oracle_value */
+static double oracle_slope(const oracle *o, int j, int d, double lam, double u)
+{
+    mpfr_t sum, term;
+    mpfr_inits2(bits(lam), sum, term, (mpfr_ptr)0);
+    mpfr_set_ui(sum, 0, MPFR_RNDN);
+    for (int m = 0; m < o->n; m++) {
+        member_slope(m, d, lam, u, term);
+        mpfr_mul(term, term, o->a[m][o->n + j], MPFR_RNDN);
+        mpfr_add(sum, sum, term, MPFR_RNDN);
+        member(m, d, lam, u, term);
+        mpfr_mul(term, term, o->slope[m][j], MPFR_RNDN);
+        mpfr_add(sum, sum, term, MPFR_RNDN);
+    }
+    double value = mpfr_get_d(sum, MPFR_RNDN);
+    mpfr_clears(sum, term, (mpfr_ptr)0);
+    return value;
+}
+
 static void oracle_clear(oracle *o)
 {
     for (int r = 0; r < o->n; r++)
-        for (int c = 0; c < 2 * o->n; c++) mpfr_clear(o->a[r][c]);
+        for (int c = 0; c < 2 * o->n; c++) {
+            mpfr_clear(o->a[r][c]);
+            if (c < o->n) mpfr_clear(o->slope[r][c]);
+        }
 }
 
 static void places(double *u)
@@ -171,27 +234,62 @@ Test(weights, table_agrees_with_single_modes)
         }
 }
 
-/* d/dlam by forward differentiation against a central difference of fourth order: truncation h^4, rounding
- * 1e-15 / h. */
-Test(weights, derivative_with_respect_to_lam)
+/* The bar: 2e-12 of the largest derivative of the cardinal function, times max(1, lam)^d for derivatives by
+ * u. Seen are 6e-13 where e^{-a u} is taken to the power 40, and at the switch between the two bases, and
+ * 1e-13 elsewhere. scale: what got is multiplied with, so that it is a derivative with respect to a. */
+static void slopes_compare(const oracle *o, const ves_layout *layout, double lam, int mode, const double *got,
+                           double scale)
 {
-    for (int l = 0; l < LAYOUTS; l++)
-        for (double lam = 0.05; lam < 700; lam *= 2.3) {
-            const ves_layout *layout = &LAYOUT[l];
-            int row = 3 * 2 * layout->power * PLACES;
-            double u[PLACES], w[5][3 * MOST * PLACES], slope[3 * MOST * PLACES],
-                room[1000] __attribute__((aligned(64))), h = 2e-3 * lam;
-            places(u);
-            bool across = (lam - 2.1 * h < 1.5 * layout->power) != (lam + 2.1 * h < 1.5 * layout->power);
-            for (int k = 0; k < 5; k++)
-                ves_weights_mode(layout, lam + (k - 2) * h, PLACES, u, w[k], k == 2 ? slope : NULL, room);
-            for (int k = 0; k < row; k++) {
-                double d = k / (2 * layout->power * PLACES), unit = pow(fmax(1, lam), d) / fmin(lam, 1);
-                double want = (w[0][k] - 8 * w[1][k] + 8 * w[3][k] - w[4][k]) / (12 * h);
-                cr_assert(fabs(slope[k] - want) <= (across ? 1e-8 : 1e-9) * unit,
-                          "lam %g entry %d: got %.12g want %.12g", lam, k, slope[k], want);
+    int n = o->n;
+    double u[PLACES], want[3][PLACES];
+    places(u);
+    for (int j = 0; j < n; j++) {
+        double largest = 0;
+        for (int d = 0; d < 3; d++)
+            for (int i = 0; i < PLACES; i++) {
+                want[d][i] = mode * oracle_slope(o, j, d, lam, u[i]);
+                if (d == 0) largest = fmax(largest, fabs(want[d][i]));
             }
-        }
+        for (int d = 0; d < 3; d++)
+            for (int i = 0; i < PLACES; i++) {
+                double is = scale * got[(d * n + j) * PLACES + i], unit = largest * pow(fmax(1, lam), d);
+                cr_assert(
+                    fabs(is - want[d][i]) <= 2e-12 * unit,
+                    "power %d lam %g mode %d condition %d derivative %d u %g: got %.17g want %.17g (%.2g)",
+                    layout->power, lam, mode, j, d, u[i], is, want[d][i], fabs(is - want[d][i]) / unit);
+            }
+    }
+}
+
+/* Modes 0 and `mode` of the table for a = lam / mode, and the row that the remainder would use. */
+static void slopes_check(const ves_layout *layout, double lam, int mode)
+{
+    int row = 3 * 2 * layout->power * PLACES;
+    double u[PLACES], one[2][3 * MOST * PLACES], room[1000] __attribute__((aligned(64))),
+        a = lam / mode, *table = malloc(sizeof *table * (size_t)(2 * (mode + 1) * row)),
+        *slope = table + (mode + 1) * row;
+    oracle o;
+    places(u);
+    ves_weights_bind(layout, a, mode, PLACES, u, &(ves_table){table, slope, room, false});
+    ves_weights_mode(layout, a * mode, PLACES, u, one[0], one[1], room);
+    oracle_solve(&o, layout, a * mode);
+    slopes_compare(&o, layout, a * mode, mode, slope + mode * row, 1);
+    slopes_compare(&o, layout, a * mode, mode, one[1], mode);
+    for (int k = 0; k < row; k++) cr_assert(slope[k] == 0, "mode 0 does not depend on a: got %g", slope[k]);
+    oracle_clear(&o);
+    free(table);
+}
+
+/* a = 0 and tiny ones too, where the derivative goes to 0 like a: the bar is relative to it all the same. */
+Test(weights, derivatives_with_respect_to_a_agree_with_the_oracle)
+{
+    static const double lam[] = {0,   1e-30,  1e-12, 1e-6, 1e-3,   0.01, 0.1,  0.3, 0.7, 1, 1.4999,
+                                 1.5, 1.5001, 2,     2.5,  2.9999, 3,    3.01, 4,   6,   8, 12,
+                                 20,  30,     50,    80,   150,    300,  500,  800, 1000};
+    static const int mode[] = {1, 7, 40};
+    for (int l = 0; l < LAYOUTS; l++)
+        for (int k = 0; k < (int)(sizeof lam / sizeof *lam); k++)
+            slopes_check(&LAYOUT[l], lam[k], mode[(k + l) % 3]);
 }
 
 Test(weights, layouts_that_determine_nothing_are_refused)
