@@ -1,7 +1,9 @@
 /* The measure of examples/plugin, as its source stands there. */
 #include "../examples/plugin/sphericity.c"
 
+#include "problem/problem.h"
 #include "samples.h"
+#include "study/run.h"
 
 /* Rounding of some thousand terms. */
 static const double ROUNDING = 1e-12;
@@ -81,4 +83,47 @@ Test(measure_plugin, says_which_interface_it_was_built_for)
     cr_assert(ves_plugin_entry.abi == VES_ABI && ves_plugin_entry.size == sizeof(ves_measure));
     cr_assert(ves_plugin_entry.measure[0] && !ves_plugin_entry.measure[1]);
     cr_assert(ves_measures_check(ves_plugin_entry.measure, NULL) == VES_OK);
+}
+
+/* ---- the whole stream: text, plan, annealing, polish with the gradient, result ---- */
+
+/* A can of radius 1: psi = (36 pi V^2)^(1/3) / A is largest for h = 2, where V = 2 pi and A = 6 pi. */
+static const char CAN[] =
+    "vesica: 1\nvariables: {h: [0.5, 1, 6], t: [-1, 0.4, 1]}\n"
+    "curves: {p: {circle: {radius: 1}}, q: {like: p, apply: [{translate: [t, 0, h]}]}}\n"
+    "patches: {wall: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: p}, {u: 1, position: q}]}}\n"
+    "shape: {closed: true, caps: [wall.u0, wall.u1]}\nmaximize: sphericity\nconstraints: [area <= 30]\n"
+    "expect: [feasible, sphericity > 0.87, optima == 1]\n";
+
+static void stream(const ves_measure *measure, int jobs, double x_tolerance)
+{
+    const ves_measure *const known[] = {measure, NULL};
+    ves_problem *problem;
+    ves_run *run;
+    ves_diag *diag = ves_diag_create();
+    ves_read_options options = {.plugin = known};
+    cr_assert(ves_problem_read_text("can.yaml", CAN, strlen(CAN), &options, &problem, diag) == VES_OK);
+    cr_assert(ves_run_create(problem, &(ves_run_options){.jobs = jobs, .evaluations = 3000}, NULL, &run,
+                             diag) == VES_OK);
+    cr_assert(run->any && run->feasible && run->passed, "%s", run->stop);
+    cr_assert((run->gradients > 0) == (measure->gradient != NULL), "%ld gradients", run->gradients);
+    /* the value is flat at the best: it is off by the square of what x is off */
+    near(run->best.objective, psi(2 * PI, 6 * PI), 1e-11, "the roundest can");
+    near(run->best.x[0], 2, x_tolerance, "its height");
+    near(run->best.x[1], 0, x_tolerance, "its lean");
+    const double *x = ves_run_best(run, NULL, NULL, NULL);
+    cr_assert(x == run->best.x);
+    ves_run_destroy(run);
+    ves_problem_destroy(problem);
+    ves_diag_destroy(diag);
+}
+
+/* slsqp stops where a step changes the value by less than 1e-12 of it: steps below 1e-6. Without a gradient
+ * cobyla shrinks its trust region to 1e-9. */
+Test(measure_plugin, goes_through_the_whole_stream)
+{
+    ves_measure plain = *ves_plugin_entry.measure[0];
+    for (int jobs = 1; jobs < 3; jobs++) stream(ves_plugin_entry.measure[0], jobs, 3e-6);
+    plain.gradient = NULL;
+    stream(&plain, 2, 3e-6);
 }
