@@ -25,17 +25,17 @@ static double sweep(ves_plan *plan, int index, plan_program which)
     double by_similarity = 0;
     ves_curves_clear(plan->curves);
     for (int k = 0; k < p->patches; k++) ves_patch_clear(plan->patch[k]);
-    for (int k = 0; k < l->sites; k++) ves_site_clear(&l->site[k], l->site[k].slopes[which]);
+    for (int k = 0; k < l->sites; k++) l->site[k].slopes = 0;
     for (int m = 0; m < p->measures; m++) {
         if (!plan->runs[which][m] || plan->measure_adjoint[m] == 0) continue;
         const plan_instance *in = &l->instance[m];
+        for (int k = 0; k < in->input.samples; k++) l->site[in->site[k]].slopes |= in->need[k];
         p->measure[m].measure->gradient(&in->input, plan->measure_adjoint[m], in->adjoint,
                                         plan->block_adjoint);
     }
+    for (int k = 0; k < l->sites; k++) by_similarity += ves_site_scatter(plan, &l->site[k]);
     for (int k = 0; k < l->sites; k++)
-        by_similarity += ves_site_scatter(plan, &l->site[k], l->site[k].slopes[which]);
-    for (int k = 0; k < l->sites; k++)
-        if (l->site[k].slopes[which]) ves_site_gather(plan, &l->site[k]);
+        if (l->site[k].slopes) ves_site_gather(plan, &l->site[k]);
     for (int k = 0; k < p->patches; k++) ves_patch_unbind(plan->patch[k], &plan->bound, plan->block_adjoint);
     ves_curves_scatter(plan->curves, plan->block, plan->block_adjoint);
     return by_similarity;

@@ -27,22 +27,24 @@ typedef struct plan_site {
     ves_grid grid;
     ves_chart *chart; /* NULL: a curve */
     int tiles;
-    ves_tile *tile; /* the pieces in which a chart is sampled */
+    ves_tile *tile;        /* the pieces in which a chart is sampled */
+    ves_tile_planes *kept; /* [tiles] their fields, as last sampled for a gradient */
     int patch;
     int curve, curve_modes;
     double *trig; /* curve: [e][k][nv] */
     double side;  /* orientation of the patch */
     bool varies;
-    unsigned needs[PROGRAMS];  /* VES_X | ... */
-    unsigned slopes[PROGRAMS]; /* those that measures asked for: validity's have no adjoint */
-    unsigned wants;            /* all of them */
+    unsigned needs[PROGRAMS]; /* VES_X | ... */
+    unsigned wants;           /* all of them */
+    unsigned slopes;          /* of the sweep at hand: planes whose adjoint some measure adds to */
 } plan_site;
 
 /* One measure at one level. */
 typedef struct plan_instance {
     ves_measure_input input;
     const ves_adjoint **adjoint;
-    int *site; /* [input.samples] index into the level's sites */
+    int *site;      /* [input.samples] index into the level's sites */
+    unsigned *need; /* [input.samples] what is read there */
 } plan_instance;
 
 typedef struct plan_level {
@@ -101,8 +103,7 @@ struct ves_plan {
 /* sites.c: sampling and its transpose */
 ves_status ves_plan_level_build(ves_plan *plan, int index);
 ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient);
-void ves_site_clear(plan_site *s, unsigned needs);
-double ves_site_scatter(ves_plan *plan, plan_site *s, unsigned needs); /* returns d J / d similarity */
+double ves_site_scatter(ves_plan *plan, plan_site *s); /* returns d J / d similarity, leaves adjoints 0 */
 void ves_site_gather(ves_plan *plan, plan_site *s);
 
 /* bind.c: x -> block -> curves -> patches, and back */

@@ -6,6 +6,8 @@
 
 static const unsigned FIELD_NEED[VES_FIELDS] = {VES_X, VES_XU, VES_XV, VES_XUU, VES_XUV, VES_XVV};
 
+#define HOT static inline __attribute__((always_inline))
+
 enum { FORM_NEEDS = VES_NORMAL | VES_AREA | VES_CURVATURE };
 
 /* The fields that must be computed so that `needs` can be answered. */
@@ -38,6 +40,7 @@ static ves_status plane_take(ves_plan *plan, int count, bool varies, const doubl
 {
     *value = ves_arena_doubles(&plan->arena, (size_t)count + VES_LANES);
     *adjoint = varies ? ves_arena_doubles(&plan->arena, (size_t)count + VES_LANES) : NULL;
+    if (*adjoint) memset(*adjoint, 0, sizeof **adjoint * (size_t)count);
     return *value && (*adjoint || !varies) ? VES_OK : VES_MEMORY;
 }
 
@@ -64,7 +67,8 @@ static ves_status tiles_cut(ves_plan *plan, plan_site *s)
     s->tiles = ves_tile_count(&s->grid);
     s->tile = ves_arena_take(&plan->arena, (size_t)s->tiles, sizeof *s->tile);
     for (int k = 0; s->tile && k < s->tiles; k++) ves_tile_at(&s->grid, k, 0, &s->tile[k]);
-    return s->tile ? VES_OK : VES_MEMORY;
+    s->kept = ves_arena_take(&plan->arena, s->varies ? (size_t)s->tiles : 0, sizeof *s->kept);
+    return s->tile && s->kept ? VES_OK : VES_MEMORY;
 }
 
 /* Completes a site whose kind, grid and needs are known. */
@@ -125,11 +129,15 @@ static int references(const ves_measure_def *m)
     return count;
 }
 
-static void need(plan_site *s, const ves_plan *plan, int measure, unsigned wanted)
+/* Sample `at` of a measure must have these planes. */
+static void need(const ves_plan *plan, plan_level *l, int measure, int at, unsigned wanted)
 {
+    plan_instance *in = &l->instance[measure];
+    plan_site *s = &l->site[in->site[at]];
     for (int p = 0; p < PROGRAMS; p++)
-        if (plan->runs[p][measure]) s->needs[p] |= wanted, s->slopes[p] |= wanted;
+        if (plan->runs[p][measure]) s->needs[p] |= wanted;
     s->wants |= wanted;
+    in->need[at] = wanted;
 }
 
 /* The site of this kind that is there already, or -1. Places are told apart by where they are. */
@@ -194,19 +202,20 @@ static ves_status instance_build(ves_plan *plan, plan_level *l, int m)
     int caps = measure->cap ? p->shape.caps : 0, refs = references(def), count = surfaces + caps + refs,
         at = 0;
     in->site = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->site);
-    if (!in->site) return VES_MEMORY;
+    in->need = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->need);
+    if (!in->site || !in->need) return VES_MEMORY;
     for (int k = 0; k < surfaces; k++) {
         in->site[at] = patches_of(p, def, k);
-        need(&l->site[in->site[at++]], plan, m, wanted);
+        need(plan, l, m, at++, wanted);
     }
     for (int k = 0; k < caps; k++) {
         VES_TRY(cap_add(plan, l, k, &in->site[at]));
-        need(&l->site[in->site[at++]], plan, m, measure->cap);
+        need(plan, l, m, at++, measure->cap);
     }
     for (int k = 0; refs && measure->keys[k].name; k++) {
         if (!is_reference(def, k)) continue;
         VES_TRY(reference_add(plan, l, &def->args.arg[k], &in->site[at]));
-        need(&l->site[in->site[at++]], plan, m, measure->curve);
+        need(plan, l, m, at++, measure->curve);
     }
     in->input.samples = count;
     in->input.level = (int)(l - plan->level);
@@ -351,14 +360,15 @@ static void forms_store(const plan_site *s, const ves_tile *tile, unsigned needs
 
 /* Forms of a tile into the planes of the grid: straight, where the tile is as wide as a register, else
  * through a buffer. */
-static ves_status forms_sample(ves_plan *plan, plan_site *s, const ves_tile *tile, unsigned needs)
+static ves_status forms_sample(ves_plan *plan, plan_site *s, const ves_tile *tile,
+                               const ves_tile_planes *field, unsigned needs)
 {
     ves_samples *m = &s->samples;
     ves_form_rows rows;
     bool curvature = needs & VES_CURVATURE;
     if (tile->lanes < VES_LANES) {
         ves_form_rows_init(plan->form, &rows);
-        ves_status status = ves_forms_eval(tile, plan->field, s->side, curvature, &rows);
+        ves_status status = ves_forms_eval(tile, field, s->side, curvature, &rows);
         forms_store(s, tile, needs, plan->form);
         return status;
     }
@@ -368,7 +378,7 @@ static ves_status forms_sample(ves_plan *plan, plan_site *s, const ves_tile *til
     rows.at[VES_FORM_K] = curvature ? (double *)m->K : NULL;
     rows.weight = s->grid.weight;
     rows.offset = tile->offset;
-    return ves_forms_eval(tile, plan->field, s->side, curvature, &rows);
+    return ves_forms_eval(tile, field, s->side, curvature, &rows);
 }
 
 /* A site without forms is looked at for numbers here; with forms ves_forms_eval does. */
@@ -391,12 +401,13 @@ ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gr
     ves_status worst = VES_OK;
     for (int k = 0; k < s->tiles; k++) {
         ves_tile *tile = &s->tile[k];
+        ves_tile_planes *field = gradient && s->varies ? &s->kept[k] : plan->field;
         tile->fields = fields_for(needs);
-        ves_chart_sample(s->chart, tile, plan->field);
-        if (plan->similarity != 1) ves_tile_scale(tile, plan->similarity, plan->field);
-        fields_store(tile, needs, plan->field, &s->samples);
+        ves_chart_sample(s->chart, tile, field);
+        if (plan->similarity != 1) ves_tile_scale(tile, plan->similarity, field);
+        fields_store(tile, needs, field, &s->samples);
         if (needs & FORM_NEEDS) {
-            ves_status status = forms_sample(plan, s, tile, needs);
+            ves_status status = forms_sample(plan, s, tile, field, needs);
             if (status != VES_OK) worst = status;
         }
     }
@@ -408,41 +419,42 @@ ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gr
  * -----------------------------------------------------------------------------------------------------------
  */
 
-static void plane_clear(double *plane, int count)
+/* Three loops from one text. A plane of adjoints goes into a tile, times factor or on top of what is there;
+ * it is left all zeros, ready for the next sweep. */
+HOT void rows_take(const ves_tile *tile, double *from, const double *factor, bool add, double *to)
 {
-    if (plane) memset(plane, 0, sizeof *plane * (size_t)count);
-}
-
-void ves_site_clear(plan_site *s, unsigned needs)
-{
-    int count = s->grid.count;
-    for (int f = 0; f < VES_FIELDS; f++)
-        for (int c = 0; c < 3 && needs & FIELD_NEED[f]; c++)
-            plane_clear(adjoint_field(&s->adjoint, f)[c], count);
-    for (int c = 0; c < 3 && needs & VES_NORMAL; c++) plane_clear(s->adjoint.normal[c], count);
-    if (needs & VES_AREA) plane_clear(s->adjoint.dA, count);
-    if (needs & VES_CURVATURE) plane_clear(s->adjoint.H, count), plane_clear(s->adjoint.K, count);
-}
-
-/* The plane of a grid into a tile, times factor when there is one; lanes beyond the grid are zero. add: to
- * what is there. */
-static void tile_load(const plan_site *s, const ves_tile *tile, const double *from, const double *factor,
-                      bool add, double *to)
-{
-    for (int r = 0; r < tile->rows; r++) {
-        size_t at = tile->offset[r];
-        ves_lanes x = {0}, w = {0};
-        if (tile->lanes == VES_LANES) {
-            x = ves_lanes_at(from + at);
-            if (factor) x *= ves_lanes_at(factor + at);
-        } else {
-            for (int i = 0; i < tile->lanes; i++)
-                x[i] = from[at + (size_t)i] * (factor ? factor[at + (size_t)i] : 1);
-        }
-        if (add) w = ves_lanes_at(to + r * VES_LANES);
-        x += w;
-        memcpy(to + r * VES_LANES, &x, sizeof x);
+    for (int r = 0; r < tile->rows; r++, to += VES_LANES) {
+        double *at = from + tile->offset[r];
+        ves_lanes x = ves_lanes_at(at);
+        if (factor) x *= ves_lanes_at(factor + tile->offset[r]);
+        if (add) x += ves_lanes_at(to);
+        ves_lanes_put(to, x);
+        ves_lanes_put(at, (ves_lanes){0});
     }
+}
+
+/* The same where a tile is narrower than a register: lanes beyond the grid are zero. */
+static void part_take(const ves_tile *tile, double *from, const double *factor, bool add, double *to)
+{
+    for (int r = 0; r < tile->rows; r++, to += VES_LANES)
+        for (int i = 0; i < VES_LANES; i++) {
+            size_t at = tile->offset[r] + (size_t)i;
+            double x = i < tile->lanes ? from[at] * (factor ? factor[at] : 1) : 0;
+            to[i] = add ? to[i] + x : x;
+            if (i < tile->lanes) from[at] = 0;
+        }
+}
+
+static void tile_take(const ves_tile *tile, double *from, const double *factor, bool add, double *to)
+{
+    if (tile->lanes < VES_LANES)
+        part_take(tile, from, factor, add, to);
+    else if (factor)
+        rows_take(tile, from, factor, false, to);
+    else if (add)
+        rows_take(tile, from, NULL, true, to);
+    else
+        rows_take(tile, from, NULL, false, to);
 }
 
 static void plane_zero(const ves_tile *tile, double *to)
@@ -450,36 +462,36 @@ static void plane_zero(const ves_tile *tile, double *to)
     memset(to, 0, sizeof *to * (size_t)(tile->rows * VES_LANES));
 }
 
-static void form_adjoint_load(const plan_site *s, const ves_tile *tile, unsigned needs, ves_form_planes *form)
+static void form_adjoint_take(const plan_site *s, const ves_tile *tile, ves_form_planes *form)
 {
-    for (int c = 0; c < 3 && needs & VES_NORMAL; c++)
-        tile_load(s, tile, s->adjoint.normal[c], NULL, false, form->at[VES_FORM_NX + c]);
-    if (needs & VES_AREA)
-        tile_load(s, tile, s->adjoint.dA, s->grid.weight, false, form->at[VES_FORM_J]);
+    for (int c = 0; c < 3 && s->slopes & VES_NORMAL; c++)
+        tile_take(tile, s->adjoint.normal[c], NULL, false, form->at[VES_FORM_NX + c]);
+    if (s->slopes & VES_AREA)
+        tile_take(tile, s->adjoint.dA, s->grid.weight, false, form->at[VES_FORM_J]);
     else
         plane_zero(tile, form->at[VES_FORM_J]);
-    if (!(needs & VES_CURVATURE)) return;
-    tile_load(s, tile, s->adjoint.H, NULL, false, form->at[VES_FORM_H]);
-    tile_load(s, tile, s->adjoint.K, NULL, false, form->at[VES_FORM_K]);
+    if (!(s->slopes & VES_CURVATURE)) return;
+    tile_take(tile, s->adjoint.H, NULL, false, form->at[VES_FORM_H]);
+    tile_take(tile, s->adjoint.K, NULL, false, form->at[VES_FORM_K]);
 }
 
 /* The adjoint of the fields of one tile: what flows back through the forms, and what measures gave directly.
  */
-static void adjoint_make(ves_plan *plan, const plan_site *s, const ves_tile *tile, unsigned needs)
+static void adjoint_make(ves_plan *plan, plan_site *s, const ves_tile *tile, const ves_tile_planes *field)
 {
     ves_tile_planes *to = plan->field_adjoint;
+    unsigned needs = s->slopes;
     if (needs & FORM_NEEDS) {
-        form_adjoint_load(s, tile, needs, plan->form);
+        form_adjoint_take(s, tile, plan->form);
         ves_form_flow flow = {.normal = needs & VES_NORMAL, .curvature = needs & VES_CURVATURE};
-        ves_forms_gradient(tile, plan->field, s->side, flow, plan->form, to);
+        ves_forms_gradient(tile, field, s->side, flow, plan->form, to);
     }
     for (int f = 0; f < VES_FIELDS; f++)
         for (int c = 0; c < 3 && tile->fields & 1u << f; c++) {
             bool made = needs & FORM_NEEDS && f != VES_FIELD_X &&
                         (VES_FIELD_D[f] + VES_FIELD_E[f] == 1 || needs & VES_CURVATURE);
             if (needs & FIELD_NEED[f])
-                tile_load(s, tile, adjoint_field((ves_adjoint *)&s->adjoint, f)[c], NULL, made,
-                          to->at[f * 3 + c]);
+                tile_take(tile, adjoint_field(&s->adjoint, f)[c], NULL, made, to->at[f * 3 + c]);
             else if (!made)
                 plane_zero(tile, to->at[f * 3 + c]);
         }
@@ -503,15 +515,15 @@ static double tile_unscale(const ves_tile *tile, double similarity, const ves_ti
     return sum;
 }
 
-static double curve_scatter(ves_plan *plan, plan_site *s, unsigned needs)
+static double curve_scatter(ves_plan *plan, plan_site *s)
 {
     static const int FIELD[3] = {VES_FIELD_X, VES_FIELD_V, VES_FIELD_VV};
     int stride = ves_curve_stride(s->curve_modes), nv = s->grid.nv;
     double *to = ves_curves_adjoint(plan->curves, s->curve), by_similarity = 0;
     const double *coef = ves_curves_coef(plan->curves, s->curve);
     for (int e = 0; e < 3; e++)
-        for (int c = 0; c < 3 && needs & FIELD_NEED[FIELD[e]]; c++) {
-            const double *g = adjoint_field(&s->adjoint, FIELD[e])[c];
+        for (int c = 0; c < 3 && s->slopes & FIELD_NEED[FIELD[e]]; c++) {
+            double *g = adjoint_field(&s->adjoint, FIELD[e])[c];
             for (int k = 0; k < stride; k++) {
                 const double *t = s->trig + (size_t)((e * stride + k) * nv);
                 double sum = 0;
@@ -519,24 +531,23 @@ static double curve_scatter(ves_plan *plan, plan_site *s, unsigned needs)
                 if (to) to[c * stride + k] += plan->similarity * sum;
                 by_similarity += coef[c * stride + k] * sum;
             }
+            memset(g, 0, sizeof *g * (size_t)nv);
         }
     return by_similarity;
 }
 
-double ves_site_scatter(ves_plan *plan, plan_site *s, unsigned needs)
+double ves_site_scatter(ves_plan *plan, plan_site *s)
 {
-    if (!needs || !s->varies) return 0;
-    if (!s->chart) return curve_scatter(plan, s, needs);
-    ves_chart_prepare(s->chart, &plan->bound, true);
+    if (!s->slopes || !s->varies) return 0;
+    if (!s->chart) return curve_scatter(plan, s);
+    ves_chart_clear(s->chart);
     double by_similarity = 0;
     bool scaled = plan->problem->scale;
     for (int k = 0; k < s->tiles; k++) {
         ves_tile *tile = &s->tile[k];
-        tile->fields = fields_for(needs);
-        ves_chart_sample(s->chart, tile, plan->field);
-        if (plan->similarity != 1) ves_tile_scale(tile, plan->similarity, plan->field);
-        adjoint_make(plan, s, tile, needs);
-        if (scaled) by_similarity += tile_unscale(tile, plan->similarity, plan->field, plan->field_adjoint);
+        tile->fields = fields_for(s->slopes);
+        adjoint_make(plan, s, tile, &s->kept[k]);
+        if (scaled) by_similarity += tile_unscale(tile, plan->similarity, &s->kept[k], plan->field_adjoint);
         ves_chart_scatter(s->chart, tile, plan->field_adjoint);
     }
     return by_similarity;

@@ -10,6 +10,7 @@ typedef struct ves_patch_ops {
     void (*prepare)(ves_chart *chart, const ves_bound *bound, bool gradient);
     void (*sample)(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field);
     void (*clear)(ves_patch *patch);
+    void (*clear_chart)(ves_chart *chart);
     void (*scatter)(ves_chart *chart, const ves_tile *tile, const ves_tile_planes *adjoint);
     void (*gather)(ves_chart *chart, const ves_bound *bound, double *number_adjoint);
     void (*unbind)(ves_patch *patch, const ves_bound *bound, double *number_adjoint);

@@ -60,6 +60,11 @@ void ves_patch_clear(ves_patch *patch)
     if (patch->varies) patch->ops->clear(patch);
 }
 
+void ves_chart_clear(ves_chart *chart)
+{
+    if (chart->patch->varies) chart->patch->ops->clear_chart(chart);
+}
+
 void ves_chart_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_planes *adjoint)
 {
     if (chart->patch->varies) chart->patch->ops->scatter(chart, tile, adjoint);

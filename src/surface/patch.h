@@ -4,7 +4,7 @@
  * curves and numbers it was made of.
  *
  * Order of calls for one x:   bind, then for each chart: prepare, sample*        (values)
- *                             clear, then for each chart: scatter*, gather; then unbind   (gradient)
+ *                             clear, then for each chart: clear, scatter*, gather; then unbind   (gradient)
  * Nothing here allocates after the chart is created. Everything lives in the plan's arena; one thread at a
  * time. */
 #ifndef VES_SURFACE_PATCH_H
@@ -68,11 +68,12 @@ ves_status ves_chart_create(ves_patch *patch, const ves_grid *grid, unsigned fie
                             ves_chart **chart);
 
 void ves_patch_bind(ves_patch *patch, const ves_bound *bound);
-/* gradient: prepare also what scatter needs. */
+/* gradient: prepare also what gather needs. */
 void ves_chart_prepare(ves_chart *chart, const ves_bound *bound, bool gradient);
 void ves_chart_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field);
 
 void ves_patch_clear(ves_patch *patch);
+void ves_chart_clear(ves_chart *chart);
 void ves_chart_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_planes *adjoint);
 void ves_chart_gather(ves_chart *chart, const ves_bound *bound, double *number_adjoint);
 void ves_patch_unbind(ves_patch *patch, const ves_bound *bound, double *number_adjoint);

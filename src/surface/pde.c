@@ -193,11 +193,6 @@ static void pde_prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
         if (p->band > p->modes) residual_eval(p, c, chart->grid->nv);
         c->binding = chart->patch->binding;
     }
-    if (gradient) {
-        memset(c->mode_adjoint, 0, sizeof(double) * (size_t)(9 * stride(p->modes) * c->nup));
-        if (p->band > p->modes)
-            memset(c->residual_adjoint, 0, sizeof(double) * (size_t)(9 * p->conditions * chart->grid->nv));
-    }
 }
 
 static void pde_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field)
@@ -226,11 +221,13 @@ static void pde_clear(ves_patch *patch)
     p->a_adjoint = 0;
 }
 
-static double total(lanes x)
+static void pde_clear_chart(ves_chart *chart)
 {
-    double sum = 0;
-    for (int i = 0; i < VES_LANES; i++) sum += x[i];
-    return sum;
+    const pde *p = chart->patch->state;
+    const pde_chart *c = chart->state;
+    memset(c->mode_adjoint, 0, sizeof(double) * (size_t)(9 * stride(p->modes) * c->nup));
+    if (p->band > p->modes)
+        memset(c->residual_adjoint, 0, sizeof(double) * (size_t)(9 * p->conditions * chart->grid->nv));
 }
 
 static void pde_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_planes *adjoint)
@@ -247,48 +244,50 @@ static void pde_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_p
                 size_t curve = (size_t)(((j * 3 + VES_FIELD_E[f]) * 3 + k) * chart->grid->nv);
                 lanes w = *(const lanes *)(c->rest + at), carried = {0};
                 for (int row = 0; row < tile->rows; row++) {
-                    c->residual_adjoint[curve + (size_t)tile->row[row]] += total(in[row] * w);
+                    c->residual_adjoint[curve + (size_t)tile->row[row]] += ves_lanes_sum(in[row] * w);
                     carried += in[row] * c->residual[curve + (size_t)tile->row[row]];
                 }
-                if (p->a_varies) p->a_adjoint += total(carried * *(const lanes *)(c->rest_a + at));
+                if (p->a_varies) p->a_adjoint += ves_lanes_sum(carried * *(const lanes *)(c->rest_a + at));
             }
         }
 }
 
-/* The transpose of modes_product, and a's part. */
-HOT void modes_transpose(pde *p, const pde_chart *c, int K, int orders)
+/* The transpose of modes_product, and a's part: the derivative of the table applied to the data. */
+HOT void modes_transpose(pde *p, const pde_chart *c, int K, int orders, bool by_a)
 {
     int nup = c->nup, width = stride(p->band), mode_stride = stride(p->modes);
-    lanes by_a = {0};
-    for (int n = 0; n <= p->modes; n++)
-        for (int k = 0; k < 3; k++)
-            for (int part = n ? 2 * n - 1 : 0; part <= 2 * n; part++) {
-                lanes sum[VES_CONDITIONS_MAX] = {{0}}, moved[VES_CONDITIONS_MAX] = {{0}};
-                for (int d = 0; d < orders; d++)
-                    for (int b = 0; b < nup; b += VES_LANES) {
-                        lanes g = *(const lanes *)(c->mode_adjoint +
-                                                   (size_t)(((d * 3 + k) * mode_stride + part) * nup + b));
-                        size_t w = (size_t)((n * 3 + d) * K * nup + b);
-                        for (int j = 0; j < K; j++)
-                            sum[j] += g * *(const lanes *)(c->table + w + (size_t)(j * nup));
-                        for (int j = 0; j < K && p->a_varies; j++)
-                            moved[j] += g * *(const lanes *)(c->table_a + w + (size_t)(j * nup));
-                    }
-                for (int j = 0; j < K; j++) {
-                    size_t at = (size_t)((j * 3 + k) * width + part);
-                    p->data_adjoint[at] += total(sum[j]);
-                    by_a += moved[j] * p->data[at];
+    lanes moved[3] = {{0}};
+    for (int part = 0; part < mode_stride; part++) {
+        size_t table = (size_t)((part + 1) / 2 * 3 * K * nup);
+        const double *f = p->data + part;
+        lanes sum[3][VES_CONDITIONS_MAX] = {{{0}}};
+        for (int d = 0; d < orders; d++)
+            for (int b = 0; b < nup; b += VES_LANES) {
+                size_t at = table + (size_t)(d * K * nup + b);
+                const double *from = c->mode_adjoint + (size_t)((d * 3 * mode_stride + part) * nup + b);
+                for (int k = 0; k < 3; k++) {
+                    lanes g = *(const lanes *)(from + k * mode_stride * nup), x = {0};
+                    for (int j = 0; j < K; j++) sum[k][j] += g * *(const lanes *)(c->table + at + j * nup);
+                    for (int j = 0; j < K && by_a; j++)
+                        x += *(const lanes *)(c->table_a + at + j * nup) * f[(j * 3 + k) * width];
+                    if (by_a) moved[k] += g * x;
                 }
             }
-    p->a_adjoint += total(by_a);
+        for (int k = 0; k < 3; k++)
+            for (int j = 0; j < K; j++)
+                p->data_adjoint[(j * 3 + k) * width + part] += ves_lanes_sum(sum[k][j]);
+    }
+    p->a_adjoint += ves_lanes_sum(moved[0] + moved[1] + moved[2]);
 }
 
 static void modes_gather(pde *p, const pde_chart *c)
 {
-    if (p->conditions == 4)
-        modes_transpose(p, c, 4, c->orders);
+    if (p->conditions == 4 && p->a_varies)
+        modes_transpose(p, c, 4, c->orders, true);
+    else if (p->conditions == 4)
+        modes_transpose(p, c, 4, c->orders, false);
     else
-        modes_transpose(p, c, 2, c->orders);
+        modes_transpose(p, c, 2, c->orders, p->a_varies);
 }
 
 static void pde_gather(ves_chart *chart, const ves_bound *bound, double *number_adjoint)
@@ -443,6 +442,7 @@ static const ves_patch_ops PDE = {.chart = pde_chart_create,
                                   .prepare = pde_prepare,
                                   .sample = pde_sample,
                                   .clear = pde_clear,
+                                  .clear_chart = pde_clear_chart,
                                   .scatter = pde_scatter,
                                   .gather = pde_gather,
                                   .unbind = pde_unbind,

@@ -36,7 +36,7 @@ static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
     const drawn *d = chart->patch->state;
     ves_sheet *s = chart->state;
     const ves_grid *grid = chart->grid;
-    if (gradient) ves_sheet_clear(chart);
+    (void)gradient;
     if (!ves_sheet_stale(chart)) return;
     for (int f = 0; f < VES_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
@@ -88,6 +88,7 @@ static const ves_patch_ops FORMULA = {.chart = chart_create,
                                       .prepare = prepare,
                                       .sample = ves_sheet_sample,
                                       .clear = ves_sheet_idle_clear,
+                                      .clear_chart = ves_sheet_clear,
                                       .scatter = ves_sheet_scatter,
                                       .gather = gather,
                                       .unbind = ves_sheet_idle_unbind,

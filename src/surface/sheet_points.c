@@ -116,7 +116,7 @@ static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
     ves_sheet *s = chart->state;
     const tables *t = s->tables;
     const ves_grid *grid = chart->grid;
-    if (gradient) ves_sheet_clear(chart);
+    (void)gradient;
     if (!ves_sheet_stale(chart)) return;
     for (int f = 0; f < VES_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
@@ -187,6 +187,7 @@ static const ves_patch_ops POINTS = {.chart = chart_create,
                                      .prepare = prepare,
                                      .sample = ves_sheet_sample,
                                      .clear = ves_sheet_idle_clear,
+                                     .clear_chart = ves_sheet_clear,
                                      .scatter = ves_sheet_scatter,
                                      .gather = gather,
                                      .unbind = ves_sheet_idle_unbind,
