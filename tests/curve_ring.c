@@ -1,4 +1,5 @@
 /* Circles and ellipses whose axis varies: their frame is chosen once and moves smoothly. */
+#include "curve/frame.h"
 #include "curve_shelf.h"
 
 static const double pi = 3.14159265358979323846;
@@ -59,5 +60,41 @@ Test(curve_ring, a_ring_about_an_axis_with_a_constant_component_does_not_depend_
         cr_assert(!k || far(out, want) < rounding, "start %d: off by %g", k, far(out, want));
         shelf_check_gradient(&s, "a ring about [tx, 1, tz]");
         shelf_close(&s);
+    }
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Orthonormal, and at a right angle to the axis, to rounding wherever the axis points, also where 1 + n . m
+ * cancels and at n = -m itself. Along meridians that stop short of n = -m it turns no faster than the axis
+ * does, but for tan(theta / 2). */
+Test(curve_ring, the_frame_is_orthonormal_everywhere_and_continuous_short_of_the_opposite_point)
+{
+    static const bool varies[3] = {true, true, true};
+    static const double towards[3][3] = {{0.1, 0.2, 0.9}, {-3, 1, 2}, {0.2, -5, 4}};
+    for (int k = 0; k < 3; k++) {
+        ves_frame frame = ves_frame_init(towards[k], varies);
+        for (int meridian = 0; meridian < 12; meridian++) {
+            double phi = pi * meridian / 6 + 0.1, last[2][3], step = pi / 720;
+            for (int i = 0; i <= 726; i++) {
+                double theta = i < 720 ? i * step : pi - (i < 726 ? pow(10, -3 * (i - 719)) : 0);
+                double axis[3], e[2][3], length = 2.7;
+                axis[frame.m] = frame.sign * length * cos(theta);
+                axis[frame.other[0]] = i == 726 ? 0 : length * sin(theta) * cos(phi);
+                axis[frame.other[1]] = i == 726 ? 0 : length * sin(theta) * sin(phi);
+                ves_frame_bind(&frame, axis, e);
+                cr_assert(fabs(dot(e[0], e[0]) - 1) < rounding && fabs(dot(e[1], e[1]) - 1) < rounding &&
+                              fabs(dot(e[0], e[1])) < rounding && fabs(dot(e[0], axis)) < 3 * rounding &&
+                              fabs(dot(e[1], axis)) < 3 * rounding,
+                          "axis %g %g %g", axis[0], axis[1], axis[2]);
+                for (int d = 0; d < 2 && i && i < 700; d++)
+                    cr_assert(far(e[d], last[d]) < 1.01 * step * fmax(1, tan(theta / 2)), "jumps at %g",
+                              theta);
+                memcpy(last, e, sizeof last);
+            }
+        }
     }
 }

@@ -130,7 +130,7 @@ static inline void shelf_formula(shelf *s, const char *const text[3])
 
 static inline ves_status shelf_try(shelf *s)
 {
-    ves_curve_set set = {s->def, s->count, s->limit, s->number, s->varying};
+    ves_curve_set set = {s->def, s->count, s->limit, s->number, s->varying, NULL};
     return ves_curves_create(&set, &s->arena, &s->curves, s->diag);
 }
 

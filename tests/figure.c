@@ -296,6 +296,36 @@ Test(figure, blunt_rims_and_sharp_tips_are_finite)
     bed_clear(&b);
 }
 
+/* --- rings whose axis varies
+ * ---------------------------------------------------------------------------------------------------- */
+
+/* A tube between an ellipse that stays and one whose whole axis varies: what it is at x does not depend on
+ * where the search began, be it on the other side of a change of nearest coordinate axis, or opposite to it.
+ */
+Test(figure, the_same_numbers_give_the_same_shape_whatever_the_start)
+{
+    static const double start[4][3] = {{0.1, 0.2, 0.9}, {1, 0.1, 0.2}, {0, -1, 0.1}, {0, 0, -0.5}};
+    static const double x[3] = {0.5, -0.3, 0.8};
+    double want = 0;
+    for (int k = 0; k < 4; k++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "vesica: 1\nquadrature: {u: 16, v: 32}\nvariables: {a: [-1, %g, 1], b: [-1, %g, 1], c: "
+                 "[-0.5, %g, "
+                 "1]}\ncurves: {low: {ellipse: {radii: [1, 0.6]}}, high: {ellipse: {radii: [0.7, 1.1], "
+                 "centre: [0, 0, "
+                 "3], axis: [a, b, c]}}}\npatches: {wall: {operator: {power: 1}, conditions: [{u: 0, "
+                 "position: low}, "
+                 "{u: 1, position: high}]}}\nvalidity: {jacobian: any}\nminimize: area + bending\n",
+                 start[k][0], start[k][1], start[k][2]);
+        bed b = bed_make(text);
+        double got = measured(&b, x, "bending");
+        if (!k) want = got;
+        cr_expect(fabs(got - want) <= rounding * want, "start %d: %.15g, another %.15g", k, got, want);
+        bed_clear(&b);
+    }
+}
+
 /* --- which way a shape faces
  * ---------------------------------------------------------------------------------------------------- */
 

@@ -159,7 +159,7 @@ Test(surface, the_remainder_meets_the_end_curves)
         ves_curves *curves;
         ves_arena arena = {0};
         const ves_problem *p = b.problem;
-        ves_curve_set set = {p->curve, p->curves, p->curve_limit, ves_plan_slots(b.plan), p->varying};
+        ves_curve_set set = {p->curve, p->curves, p->curve_limit, ves_plan_slots(b.plan), p->varying, NULL};
         cr_assert_eq(ves_curves_create(&set, &arena, &curves, NULL), VES_OK);
         for (int i = 0; i < POINTS; i++) {
             double at[9], slope[9];

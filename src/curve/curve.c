@@ -29,7 +29,7 @@ struct ves_curves {
 typedef struct build {
     const ves_curve_def *def;
     int limit;
-    const double *number;
+    const double *number, *middle;
     const bool *varying;
     ves_arena *arena;
     ves_diag *diag;
@@ -72,6 +72,7 @@ static bool step_init(const build *b, const ves_curve_step *written, int inputs,
     s->source = ves_arena_take(b->arena, n, sizeof *s->source);
     s->input = (ves_curve_input){.args = &written->args,
                                  .number = b->number,
+                                 .middle = b->middle,
                                  .varying = b->varying,
                                  .limit = b->limit,
                                  .inputs = inputs,
@@ -160,7 +161,8 @@ ves_status ves_curves_create(const ves_curve_set *set, ves_arena *arena, ves_cur
     *curves = NULL;
     ves_curves *made = ves_arena_take(arena, 1, sizeof *made);
     int limit = set->limit > 0 ? set->limit : VES_CURVE_MODES;
-    build b = {set->def, limit, set->number, set->varying, arena, diag, made};
+    const double *middle = set->middle ? set->middle : set->number;
+    build b = {set->def, limit, set->number, middle, set->varying, arena, diag, made};
     if (made) made->curve = ves_arena_take(arena, (size_t)set->count, sizeof *made->curve);
     if (!made || !made->curve) return no_memory(&b, (ves_mark){0});
     made->count = set->count;

@@ -25,6 +25,8 @@ static inline int ves_curve_stride(int modes)
 typedef struct ves_curve_input {
     const ves_args *args;
     const double *number; /* the number block: slots first, then numbers; args' `first` index it */
+    const double *middle; /* [number block] with every variable in the middle of its range; for `prepare`:
+                             what is chosen by it does not depend on where a search starts */
     const bool *varying;  /* [number block]: depends on a variable; for `prepare` and `modes` */
     int limit;            /* most modes the file allows a curve to have */
     int modes;            /* of the output, as `modes` answered */
@@ -94,8 +96,9 @@ typedef struct ves_curve_set {
     int limit; /* most modes of a curve; <= 0: VES_CURVE_MODES */
     const double
         *number; /* the number block at the start design, from which the operations learn their constants */
-    const bool *varying; /* [number block] depends on a variable: curves that read no such number are
-                            evaluated once */
+    const bool *varying;  /* [number block] depends on a variable: curves that read no such number are
+                             evaluated once */
+    const double *middle; /* the number block with every variable in the middle of its range; NULL: number */
 } ves_curve_set;
 
 ves_status ves_curves_create(const ves_curve_set *set, ves_arena *arena, ves_curves **curves, ves_diag *diag);

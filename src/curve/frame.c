@@ -6,9 +6,10 @@
 
 static const double origin[3] = {0, 0, 0}, upward[3] = {0, 0, 1};
 
-/* The unit vector n along the axis, on the side of m. */
+/* The unit vector n along the axis, on the side of m, and 1 + n . m. */
 typedef struct tilt {
     double n[3], length; /* length: of the axis, negative when n points against it */
+    double sum;
 } tilt;
 
 static double dot(const double a[3], const double b[3])
@@ -27,13 +28,16 @@ static int largest(const double axis[3])
 
 ves_frame ves_frame_init(const double axis[3], const bool varies[3])
 {
-    double fixed[3];
-    for (int c = 0; c < 3; c++) fixed[c] = varies && varies[c] ? 0 : axis[c];
+    double fixed[3], known[3];
+    for (int c = 0; c < 3; c++) {
+        known[c] = isfinite(axis[c]) ? axis[c] : 0;
+        fixed[c] = varies && varies[c] ? 0 : known[c];
+    }
     ves_frame frame = {.m = largest(fixed)};
-    if (fixed[frame.m] == 0) frame.m = largest(axis);
+    if (fixed[frame.m] == 0) frame.m = largest(known);
     frame.other[0] = frame.m == 0 ? 1 : 0;
     frame.other[1] = frame.m == 2 ? 1 : 2;
-    frame.sign = copysign(1, axis[frame.m]);
+    frame.sign = known[frame.m] < 0 ? -1 : 1;
     return frame;
 }
 
@@ -41,15 +45,23 @@ static tilt tilt_of(const ves_frame *frame, const double axis[3])
 {
     tilt t = {.length = frame->sign * sqrt(dot(axis, axis))};
     for (int c = 0; c < 3; c++) t.n[c] = axis[c] / t.length;
+    double along = t.n[frame->m], p = t.n[frame->other[0]], q = t.n[frame->other[1]];
+    t.sum = along < 0 ? (p * p + q * q) / (1 - along) : 1 + along; /* near -m the sum would cancel */
     return t;
+}
+
+/* (n . e_m) / (1 + n . m) of the other axis i. */
+static double lean(const ves_frame *frame, const tilt *t, int i)
+{
+    return t->sum > 0 ? t->n[frame->other[i]] / t->sum : 0;
 }
 
 void ves_frame_bind(const ves_frame *frame, const double axis[3], double e[2][3])
 {
     tilt t = tilt_of(frame, axis);
     for (int i = 0; i < 2; i++) {
-        double q = t.n[frame->other[i]] / (1 + t.n[frame->m]);
-        for (int c = 0; c < 3; c++) e[i][c] = (c == frame->other[i]) - q * ((c == frame->m) + t.n[c]);
+        double q = lean(frame, &t, i);
+        for (int c = 0; c < 3; c++) e[i][c] = (c == frame->other[i]) - q * (c == frame->m ? t.sum : t.n[c]);
     }
 }
 
@@ -57,15 +69,15 @@ void ves_frame_scatter(const ves_frame *frame, const double axis[3], const doubl
                        double axis_adjoint[3])
 {
     tilt t = tilt_of(frame, axis);
-    double n_adjoint[3] = {0, 0, 0}, divisor = 1 + t.n[frame->m];
+    double n_adjoint[3] = {0, 0, 0}, inverse = t.sum > 0 ? 1 / t.sum : 0;
     for (int i = 0; i < 2; i++) {
-        double q = t.n[frame->other[i]] / divisor, q_adjoint = 0;
+        double q = lean(frame, &t, i), q_adjoint = 0;
         for (int c = 0; c < 3; c++) {
             n_adjoint[c] -= q * e_adjoint[i][c];
-            q_adjoint -= e_adjoint[i][c] * ((c == frame->m) + t.n[c]);
+            q_adjoint -= e_adjoint[i][c] * (c == frame->m ? t.sum : t.n[c]);
         }
-        n_adjoint[frame->other[i]] += q_adjoint / divisor;
-        n_adjoint[frame->m] -= q_adjoint * q / divisor;
+        n_adjoint[frame->other[i]] += q_adjoint * inverse;
+        n_adjoint[frame->m] -= q_adjoint * q * inverse;
     }
     double along = dot(n_adjoint, t.n);
     for (int c = 0; c < 3; c++) axis_adjoint[c] += (n_adjoint[c] - along * t.n[c]) / t.length;
@@ -81,7 +93,8 @@ ves_status ves_ring_prepare(const ves_curve_input *input, ves_ring ring, ves_are
     ves_frame *frame = ves_arena_take(arena, 1, sizeof *frame);
     if (!frame) return ves_input_memory(input, diag);
     const ves_arg *arg = &input->args->arg[ring.axis];
-    *frame = ves_frame_init(axis, arg->given ? input->varying + arg->first : NULL);
+    *frame = arg->given ? ves_frame_init(input->middle + arg->first, input->varying + arg->first)
+                        : ves_frame_init(upward, NULL);
     *state = frame;
     return VES_OK;
 }

@@ -8,8 +8,10 @@
  * No frame that is smooth everywhere contains all three of the above. So for an axis that varies m, and the
  * sign that puts n on its side, are chosen once and kept: m is the coordinate axis of the largest component
  * that is constant and not 0 ([tx, 1, tz]: y), and the frame is then smooth wherever the others go. Where
- * there is none, it is the nearest one at the start design, and the frame smooth but at n = -m, at least 125
- * degrees away. */
+ * there is none, it is the nearest one to the axis with all variables in the middle of their ranges (z where
+ * that has no direction): the same axis gives the same frame wherever a search starts, and a run that goes on
+ * from its best goes on with the same surface. The frame is then smooth but at n = -m, at least 125 degrees
+ * from that middle; there it jumps, and is that of m. */
 #ifndef VES_CURVE_FRAME_H
 #define VES_CURVE_FRAME_H
 
@@ -20,7 +22,7 @@ typedef struct ves_frame {
     double sign;     /* of the axis along m */
 } ves_frame;
 
-/* axis: that of the start design; varies: each of its components, or NULL. */
+/* axis: with all variables in the middle of their ranges; varies: each of its components, or NULL. */
 ves_frame ves_frame_init(const double axis[3], const bool varies[3]);
 
 /* axis: any length but 0. */

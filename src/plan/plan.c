@@ -110,17 +110,22 @@ static ves_status memory_take(ves_plan *plan)
  * ------------------------------------------------------------------------------------------------------------
  */
 
-/* Fills the whole block at the start: also what never varies. */
-static void block_start(ves_plan *plan)
+/* Fills a whole block, also what never varies: at the start, or with every variable in the middle of its
+ * range.
+ */
+static void block_fill(ves_plan *plan, bool middle, double *block)
 {
     const ves_problem *p = plan->problem;
-    for (int k = 0; k < p->variables; k++) plan->block[k] = p->variable[k].start;
-    if (p->solve) plan->block[p->variables] = (p->solve->lo + p->solve->hi) / 2;
+    for (int k = 0; k < p->variables; k++) {
+        const ves_variable *v = &p->variable[k];
+        block[k] = middle ? v->min + (v->max - v->min) / 2 : v->start;
+    }
+    if (p->solve) block[p->variables] = (p->solve->lo + p->solve->hi) / 2;
     for (int k = 0; k < p->parameters; k++)
-        plan->block[p->variables + p->unknowns + k] =
-            ves_formula_eval(p->parameter[k].formula, plan->block, NULL, plan->formula_room);
+        block[p->variables + p->unknowns + k] =
+            ves_formula_eval(p->parameter[k].formula, block, NULL, plan->formula_room);
     for (int k = 0; k < p->numbers; k++)
-        plan->block[p->slots + k] = ves_formula_eval(p->number[k], plan->block, NULL, plan->formula_room);
+        block[p->slots + k] = ves_formula_eval(p->number[k], block, NULL, plan->formula_room);
 }
 
 static ves_status patch_make(ves_plan *plan, int k, ves_diag *diag)
@@ -182,8 +187,11 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     VES_TRY(places_check(p, diag));
     VES_TRY(memory_take(plan));
     plan->similarity = 1;
-    block_start(plan);
-    ves_curve_set set = {p->curve, p->curves, p->curve_limit, plan->block, p->varying};
+    double *middle = ves_arena_take(&plan->arena, (size_t)p->block, sizeof *middle);
+    if (!middle) return VES_MEMORY;
+    block_fill(plan, false, plan->block);
+    block_fill(plan, true, middle);
+    ves_curve_set set = {p->curve, p->curves, p->curve_limit, plan->block, p->varying, middle};
     VES_TRY(ves_curves_create(&set, &plan->arena, &plan->curves, diag));
     plan->bound = (ves_bound){.number = plan->block, .varying = p->varying, .curves = plan->curves};
     for (int k = 0; k < p->patches; k++) VES_TRY(patch_make(plan, k, diag));

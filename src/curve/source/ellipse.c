@@ -19,7 +19,8 @@ static const ves_key keys[] = {
      .kind = VES_VECTOR,
      .unit = "1",
      .about = "normal of its plane, [0, 0, 1] unless given; r0 lies on the first of x, y, z that the plane "
-              "contains (of a varying axis: with only its largest constant component, or as it starts)"},
+              "contains (of a varying axis: with only its largest constant component, or in the middle of "
+              "the ranges)"},
     {.name = "centre", .kind = VES_VECTOR, .about = "centre, the origin unless given"},
     {.name = NULL},
 };
