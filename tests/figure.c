@@ -409,3 +409,29 @@ Test(figure, a_closed_shape_is_measured_alike_wherever_it_stands)
         bed_clear(&b);
     }
 }
+
+/* Two balls beside each other hold both; one in the other leaves a hollow; a third within that is solid
+ * again. Each runs from its north or its south pole. */
+Test(figure, bodies_add_up_and_hollows_do_not)
+{
+    for (int k = 0; k < 16; k++) {
+        char text[1500];
+        const char *way[2] = {"", "-"};
+        snprintf(
+            text, sizeof text,
+            "vesica: 1\npatches:\n"
+            "  small: {surface: {formula: [\"sin(pi*u)*cos(v)\", \"sin(pi*u)*sin(v)\", \"%scos(pi*u) + "
+            "9\"]}}\n"
+            "  big: {surface: {formula: [\"3*sin(pi*u)*cos(v)\", \"3*sin(pi*u)*sin(v)\", \"%s3*cos(pi*u) + "
+            "9.5\"]}}\n"
+            "  tiny: {surface: {formula: [\"sin(pi*u)*cos(v)/2\", \"sin(pi*u)*sin(v)/2\", \"%scos(pi*u)/2 + "
+            "9.2\"]}}\n"
+            "  aside: {surface: {formula: [\"sin(pi*u)*cos(v) - 5\", \"sin(pi*u)*sin(v)\", \"%scos(pi*u) + "
+            "9\"]}}\nshape: {closed: true}\nminimize: volume\n",
+            way[k & 1], way[k >> 1 & 1], way[k >> 2 & 1], way[k >> 3]);
+        bed b = bed_make(text);
+        double got = measured(&b, NULL, "volume"), want = 4 * pi / 3 * (27 - 1 + 0.125 + 1);
+        cr_expect(fabs(got - want) < rounding * want, "%d: %.15g want %.15g", k, got, want);
+        bed_clear(&b);
+    }
+}

@@ -15,47 +15,66 @@ typedef struct facing {
     double area, moment[3]; /* twice the area, and twice the first moment */
 } facing;
 
-static void triangle_add(facing *f, const double *a, const double *b, const double *c, double skin)
+static double dot(const double a[3], const double b[3])
 {
-    double n[3], square = 0;
-    for (int k = 0; k < 3; k++) {
-        int p = (k + 1) % 3, q = (k + 2) % 3;
-        n[k] = (b[p] - a[p]) * (c[q] - a[q]) - (b[q] - a[q]) * (c[p] - a[p]);
-        square += n[k] * n[k];
-    }
-    double area = skin * sqrt(square);
-    f->area += area;
-    for (int k = 0; k < 3; k++) {
-        f->flux += a[k] * n[k];
-        f->vector[k] += n[k];
-        f->moment[k] += area * (a[k] + b[k] + c[k]) / 3;
-    }
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Triangles of a patch or of a cap (corner -1: the middle), about `origin`. */
-static void triangles_add(facing *f, const ves_figure_patch *p, const int *corner, int count,
-                          const double middle[3], const double origin[3], double skin)
+/* (b - a) x (c - a): twice the vector area. */
+static void twice_area(double (*const x)[3], double n[3])
 {
-    for (int t = 0; t < count; t++) {
-        double x[3][3];
-        for (int k = 0; k < 3; k++)
-            for (int c = 0; c < 3; c++) {
-                int node = corner[3 * t + k];
-                x[k][c] = (node < 0 ? middle[c] : p->X[c][node]) - origin[c];
-            }
-        triangle_add(f, x[0], x[1], x[2], skin);
+    for (int k = 0; k < 3; k++) {
+        int p = (k + 1) % 3, q = (k + 2) % 3;
+        n[k] = (x[1][p] - x[0][p]) * (x[2][q] - x[0][q]) - (x[1][q] - x[0][q]) * (x[2][p] - x[0][p]);
     }
 }
 
 /* The patch itself weighs in where its part stands; caps only close it. */
-static void patch_add(facing *f, const ves_figure_patch *p, int *corner, const double origin[3])
+static void facing_add(double (*const x)[3], bool cap, void *sum)
 {
-    double middle[3] = {0};
-    triangles_add(f, p, corner, ves_figure_triangles(p, corner), middle, origin, 1);
-    for (int end = 0; end < 2; end++) {
-        if (!p->cap[end] || p->pole[end]) continue;
-        ves_figure_middle(p, end, middle);
-        triangles_add(f, p, corner, ves_figure_cap(p, end, corner), middle, origin, 0);
+    facing *f = sum;
+    double n[3];
+    twice_area(x, n);
+    double area = cap ? 0 : sqrt(dot(n, n));
+    f->area += area, f->flux += dot(x[0], n);
+    for (int k = 0; k < 3; k++) {
+        f->vector[k] += n[k];
+        f->moment[k] += area * (x[0][k] + x[1][k] + x[2][k]) / 3;
+    }
+}
+
+/* The solid angle of a triangle seen from the origin (van Oosterom and Strackee 1983). */
+static void angle_add(double (*const x)[3], bool cap, void *sum)
+{
+    (void)cap;
+    double n[3], r[3];
+    twice_area(x, n);
+    for (int k = 0; k < 3; k++) r[k] = sqrt(dot(x[k], x[k]));
+    double around =
+        r[0] * r[1] * r[2] + dot(x[0], x[1]) * r[2] + dot(x[1], x[2]) * r[0] + dot(x[2], x[0]) * r[1];
+    *(double *)sum += 2 * atan2(dot(x[0], n), around);
+}
+
+typedef void triangle_take(double (*const x)[3], bool cap, void *sum);
+
+/* Every triangle of a patch and its caps, seen from `origin`. corner: scratch. */
+static void triangles_visit(const ves_figure_patch *p, const double origin[3], int *corner,
+                            triangle_take *take, void *sum)
+{
+    for (int piece = -1; piece < 2; piece++) { /* the patch, then the caps of its ends */
+        double middle[3] = {0}, x[3][3];
+        bool cap = piece >= 0;
+        if (cap && (!p->cap[piece] || p->pole[piece])) continue;
+        if (cap) ves_figure_middle(p, piece, middle);
+        int count = cap ? ves_figure_cap(p, piece, corner) : ves_figure_triangles(p, corner);
+        for (int t = 0; t < count; t++) {
+            for (int k = 0; k < 3; k++)
+                for (int c = 0; c < 3; c++) {
+                    int node = corner[3 * t + k];
+                    x[k][c] = (node < 0 ? middle[c] : p->X[c][node]) - origin[c];
+                }
+            take(x, cap, sum);
+        }
     }
 }
 
@@ -69,23 +88,44 @@ static double facing_volume(const facing *f)
     return fabs(volume) > NOTHING * f->area * size ? volume : 0;
 }
 
+/* A closed part inside another bounds a hollow: its outside is within. */
+static bool is_hollow(const ves_plan *plan, const ves_figure *figure, int part, int *corner)
+{
+    static const double HALF = 6.283185307179586; /* of all directions */
+    const ves_figure_patch *own = &figure->patch[part];
+    int within = 0, node = own->nu / 2 * own->columns;
+    const double at[3] = {own->X[0][node], own->X[1][node], own->X[2][node]};
+    for (int other = 0; other < figure->patches; other++) {
+        double angle = 0;
+        if (plan->part[other] != other || other == part) continue;
+        for (int k = 0; k < figure->patches; k++)
+            if (plan->part[k] == other) triangles_visit(&figure->patch[k], at, corner, angle_add, &angle);
+        within += fabs(angle) > HALF;
+    }
+    return within % 2;
+}
+
 ves_status ves_plan_face_outward(ves_plan *plan)
 {
     ves_figure *figure;
     int patches = plan->problem->patches;
     VES_TRY(ves_plan_figure_make(plan, ALONG, AROUND, &figure));
     facing *part = ves_arena_take(&figure->arena, (size_t)patches, sizeof *part);
+    double *turn = ves_arena_take(&figure->arena, (size_t)patches, sizeof *turn);
     int *corner = ves_arena_take(&figure->arena, 6 * ALONG * AROUND, sizeof *corner);
-    if (!part || !corner) {
-        ves_figure_destroy(figure);
-        return VES_MEMORY;
-    }
+    bool good = part && turn && corner;
     /* About the shape's own middle: far from the origin the sums would cancel. */
     double origin[3];
     ves_figure_middle(&figure->patch[0], 0, origin);
-    for (int k = 0; k < patches; k++) patch_add(&part[plan->part[k]], &figure->patch[k], corner, origin);
-    for (int k = 0; k < patches; k++)
-        if (facing_volume(&part[plan->part[k]]) < 0) plan->side[k] = -plan->side[k];
+    for (int k = 0; k < patches && good; k++)
+        triangles_visit(&figure->patch[k], origin, corner, facing_add, &part[plan->part[k]]);
+    for (int k = 0; k < patches && good; k++) {
+        if (plan->part[k] == k) {
+            bool hollow = plan->problem->shape.closed && is_hollow(plan, figure, k, corner);
+            turn[k] = (facing_volume(&part[k]) < 0) != hollow ? -1 : 1;
+        }
+        plan->side[k] *= turn[plan->part[k]];
+    }
     ves_figure_destroy(figure);
-    return VES_OK;
+    return good ? VES_OK : VES_MEMORY;
 }
