@@ -10,7 +10,7 @@ static const double TWO_PI = 6.283185307179586;
  * Nearer, what cancels in them would be seen: their rounding is 1e-16 over this distance. */
 static const double INSIDE = 2e-3;
 
-enum { EVERYTHING = (1 << VES_FIELDS) - 1 };
+enum { EVERYTHING = (1 << VES_FIELDS) - 1, ALONG = 48 };
 
 static ves_status patch_reserve(ves_figure *figure, ves_figure_patch *f)
 {
@@ -242,6 +242,8 @@ static ves_status patch_figure(ves_plan *plan, ves_figure *figure, int k, int nu
 {
     ves_figure_patch *f = &figure->patch[k];
     bool periodic = ves_patch_periodic(plan->patch[k]);
+    if (nu <= 0)
+        nu = plan->sheet[k].ends.joined ? 2 * ALONG : ALONG; /* u goes all the way round, as v does */
     *f = (ves_figure_patch){.name = plan->problem->patch[k].name,
                             .nu = nu,
                             .nv = nv,
@@ -275,7 +277,6 @@ ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **out
     *out = NULL;
     const ves_problem *p = plan->problem;
     int band = finest(plan);
-    if (nu <= 0) nu = 48;
     if (nv <= 0) nv = band < 12 ? 96 : band < 24 ? 192 : 288;
     ves_figure *figure = ves_memory_take(sizeof *figure);
     if (!figure) return VES_MEMORY;
