@@ -157,3 +157,14 @@ Test(cli_screen, every_list_is_one_json_object_too)
     }
     root_remove();
 }
+
+Test(cli_screen, the_picture_of_a_run_shows_the_mean_curvature)
+{
+    root_make();
+    expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --evaluations 1500 --out best"), 0, NULL, NULL, "run");
+    expect(vesica(NULL, "show best --png one.png"), 0, "one.png", NULL, "show");
+    expect(vesica(NULL, "show best --png two.png --colour H"), 0, "two.png", NULL, "show H");
+    expect(vesica(NULL, "show best --png three.png --colour patch"), 0, "three.png", NULL, "show patch");
+    cr_assert(system("cmp one.png best/best.png && cmp one.png two.png && ! cmp -s one.png three.png") == 0);
+    root_remove();
+}

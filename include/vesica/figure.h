@@ -22,7 +22,7 @@ typedef struct ves_view {
     int width, height;            /* pixels; 0: 960 x 720 */
     double azimuth, height_angle; /* radians: where the viewer stands; up is `up` (0 x, 1 y, 2 z) */
     int up;                       /* -1: the axis that the end curves are strung along */
-    const char *colour;           /* "patch", "H", "K", "k1", "k2" */
+    const char *colour;           /* "patch", "H" (the default), "K", "k1", "k2" */
     bool orthographic;            /* parallel projection instead of a mild perspective */
 } ves_view;
 ves_view ves_view_default(void);

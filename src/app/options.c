@@ -181,7 +181,7 @@ static const option table[] = {
     {"to", "FORMAT[,FORMAT]", "see vesica list formats", take_to},
     {"grid", "NUxNV", "cells along u and v of each patch", take_grid},
     {"png", "FILE", "where to; the ending png, svg or pdf says what (NAME.png)", take_png},
-    {"colour", "patch|H|K|k1|k2", "what the colours show", take_colour},
+    {"colour", "patch|H|K|k1|k2", "what the colours show: patches, or the mean (H, unless said), Gauss, largest or least curvature", take_colour},
     {"view", "AZIMUTH,HEIGHT", "where the viewer stands, in degrees", take_view},
     {"reference", NULL, "the reference chapter of the manual instead, in Markdown", take_reference},
     {"help", NULL, "this text", take_help},

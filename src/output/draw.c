@@ -101,6 +101,9 @@ static void outline(const sheet *s, const ves_piece *p, double grow)
     cairo_close_path(s->cairo);
 }
 
+/* Brightness below which lines are light. */
+static const double DARK = 0.3;
+
 static void mesh_lines(const sheet *s, const ves_piece *p)
 {
     static const int side[4][2] = {{0, 3}, {1, 2}, {0, 1}, {3, 2}}; /* low u, high u, low v, high v */
@@ -109,8 +112,10 @@ static void mesh_lines(const sheet *s, const ves_piece *p)
         cairo_move_to(s->cairo, p->x[side[k][0]], p->y[side[k][0]]);
         cairo_line_to(s->cairo, p->x[side[k][1]], p->y[side[k][1]]);
     }
+    static const ves_rgb paper = {1, 1, 1};
     ves_rgb own = {p->r, p->g, p->b};
-    colour(s, ves_colour_mix(own, ink, 0.5), 0.42);
+    bool dark = 0.21 * own.r + 0.72 * own.g + 0.07 * own.b < DARK; /* ink would not be seen on it */
+    colour(s, ves_colour_mix(own, dark ? paper : ink, 0.5), dark ? 0.3 : 0.42);
     cairo_set_line_width(s->cairo, 0.7 * s->unit);
     cairo_stroke(s->cairo);
 }
@@ -229,9 +234,14 @@ static void axes(const sheet *s)
 
 static void legend_title(const sheet *s, double x, double y)
 {
+    static const char *const meaning[] = {"", "mean curvature", "Gauss curvature", "largest curvature",
+                                          "least curvature"};
     char text[LABEL];
     const char *word = s->view->colour, *unit = s->figure->unit;
     bool gauss = !strcmp(word, "K");
+    font(s, 12, false);
+    colour(s, ink, 1);
+    write_text(s, s->view->width - 16 * s->unit, y - 18 * s->unit, 1, meaning[ves_scene_quantity(word)]);
     if (unit)
         snprintf(text, sizeof text, "%s (1/%s%s)", word, unit, gauss ? "²" : "");
     else
