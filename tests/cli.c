@@ -178,17 +178,6 @@ Test(cli, an_infeasible_or_unexpected_end_is_exit_1)
     root_remove();
 }
 
-/* A signal that comes while the search is at work: the trace has begun. */
-static void wait_for_trace(const char *path)
-{
-    for (int k = 0; k < 1000; k++) {
-        struct stat there;
-        if (stat(path, &there) == 0 && there.st_size > 0) return;
-        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
-    }
-    cr_assert(false, "%s never came", path);
-}
-
 Test(cli, an_interrupt_keeps_everything_and_exits_130)
 {
     static const int signals[] = {SIGINT, SIGTERM};
@@ -200,7 +189,7 @@ Test(cli, an_interrupt_keeps_everything_and_exits_130)
                  k + 1, k);
         snprintf(path, sizeof path, "stop%d/trace.jsonl", k);
         pid_t child = launch(words, NULL, "stdout");
-        wait_for_trace(path);
+        wait_for_file(path);
         kill(child, signals[k]);
         cr_assert(eq(int, wait_for(child), 130));
         char *out = slurp("stdout");

@@ -101,3 +101,101 @@ Test(cli_faults, one_is_singular)
     free(log);
     root_remove();
 }
+
+Test(cli_faults, a_run_folder_that_is_not_whole_says_what_is_wrong)
+{
+    static const struct {
+        const char *make, *says;
+    } list[] = {
+        {"head -c 300 whole/result.json > best/result.json", "\"best/result.json\" is damaged or not whole"},
+        {": > best/result.json", "\"best/result.json\" is damaged or not whole"},
+        {"head -c 300 /bin/sh > best/result.json", "\"best/result.json\" is damaged or not whole"},
+        {"echo '{}' > best/result.json", "\"best/result.json\" holds no variables"},
+        {"rm best/result.json", "\"best/result.json\" cannot be read: No such file"},
+        {"mkdir best/result.json", "\"best/result.json\" cannot be read: "},
+        {"rm -r best/result.json best/problem.yaml; cp whole/result.json best",
+         "cannot open \"best/problem.yaml\""},
+    };
+    root_make();
+    write_file("tilted.yaml", tilted);
+    expect(vesica(NULL, "run tilted.yaml --evaluations 300 --out best"), 0, NULL, NULL, "run");
+    cr_assert(system("cp -r best whole") == 0);
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
+        cr_assert(system(list[k].make) == 0, "%s", list[k].make);
+        expect(vesica(NULL, "eval best"), 2, NULL, list[k].says, list[k].make);
+        expect(vesica(NULL, "export best --to stl"), 2, NULL, list[k].says, list[k].make);
+    }
+    root_remove();
+}
+
+Test(cli_faults, files_that_are_none)
+{
+    static const struct {
+        const char *words, *says;
+        int code;
+    } list[] = {
+        {"check empty", "the file is empty; a problem begins with vesica: 1", 2},
+        {"check folder", "is not the folder of a finished run", 2},
+        {"run folder", "is a folder: vesica run needs a problem file", 2},
+        {"check noise", "has no place in a text (UTF-8)", 2},
+        {"check none.yaml", "cannot open \"none.yaml\": No such file", 2},
+        {"run tilted.yaml --start empty", "is not the folder of a finished run", 2},
+        {"sample tilted.yaml --points folder", "cannot read \"folder\": Is a directory", 2},
+        {"sample tilted.yaml --points empty", "has no points", 2},
+        {"show tilted.yaml --png folder.png", "cannot write \"folder.png\": Is a directory", 3},
+        {"show tilted.yaml --png none/a.png", "cannot write \"none/a.png\": No such file", 3},
+        {"new can folder", "nothing is overwritten", 2},
+        {"new can none/can.yaml", "cannot write \"none/can.yaml\": No such file", 3},
+        {"list units --plugin folder", "cannot load the plugin \"folder\"", 2},
+    };
+    root_make();
+    write_file("tilted.yaml", tilted);
+    write_file("empty", "");
+    write_file("noise", "\x1b[31m\xfe\xfe\x01");
+    mkdir("folder", 0777);
+    mkdir("folder.png", 0777);
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
+        outcome o = vesica(NULL, "%s", list[k].words);
+        cr_assert(strchr(o.err, '\x1b') == NULL, "%s: a control character on the screen", list[k].words);
+        expect(o, list[k].code, NULL, list[k].says, list[k].words);
+    }
+    root_remove();
+}
+
+/* No half files, and none hidden. */
+Test(cli_faults, an_interrupted_export_leaves_whole_files)
+{
+    root_make();
+    write_file("tilted.yaml", tilted);
+    pid_t child =
+        launch("export tilted.yaml --to csv,vtp,stl,obj,ply,off --grid 160x160 --out files", NULL, "stdout");
+    wait_for_file("files/tilted.csv");
+    kill(child, SIGINT);
+    cr_assert(eq(int, wait_for(child), 130));
+    char *err = slurp("stderr");
+    cr_assert(strstr(err, "interrupted: ") && strstr(err, " of 6 files are not written"), "%s", err);
+    free(err);
+    cr_assert(system("test -z \"$(ls -A files | grep '^\\.')\" && test ! -e files/tilted.off") == 0);
+    root_remove();
+}
+
+Test(cli_faults, a_full_disk_is_no_success_for_any_command)
+{
+    static const char *const words[] = {"check tilted.yaml",
+                                        "eval tilted.yaml --json",
+                                        "sample tilted.yaml --spine 500",
+                                        "schema",
+                                        "help",
+                                        "explain circle",
+                                        "run tilted.yaml --no-files --evaluations 99"};
+    root_make();
+    write_file("tilted.yaml", tilted);
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+        int code = wait_for(launch(words[k], NULL, "/dev/full"));
+        char *err = slurp("stderr");
+        cr_assert(code == 3 && strstr(err, "cannot write to standard output"), "%s: %d, %s", words[k], code,
+                  err);
+        free(err);
+    }
+    root_remove();
+}

@@ -134,6 +134,17 @@ static inline void write_file(const char *path, const char *text)
     fclose(out);
 }
 
+/* Until there is something in a file: a sign that the program is at work. */
+static inline void wait_for_file(const char *path)
+{
+    for (int k = 0; k < 1000; k++) {
+        struct stat there;
+        if (stat(path, &there) == 0 && there.st_size > 0) return;
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+    }
+    cr_assert(false, "%s never came", path);
+}
+
 /* --- JSON --- */
 
 typedef struct json {

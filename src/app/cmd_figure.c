@@ -52,12 +52,19 @@ static char *stem_of(app *a, const char *name, int *code)
     ves_status status = folder ? ves_folder_open(folder, &a->arena, a->diag) : VES_OK;
     *code = app_code(status);
     if (status != VES_OK) return NULL;
-    return folder ? ves_folder_path(folder, name, &a->arena) : ves_arena_text(&a->arena, name, strlen(name));
+    char *stem =
+        folder ? ves_folder_path(folder, name, &a->arena) : ves_arena_text(&a->arena, name, strlen(name));
+    if (!stem) *code = app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
+    return stem;
 }
 
 static int write_all(app *a, ves_figure *figure, const char *stem, const ves_format **format, int count)
 {
+    app_interrupt_listen(); /* a file that has begun is ended; a second Ctrl-C kills */
     for (int k = 0; k < count; k++) {
+        if (app_interrupt_asked())
+            return app_fail(a, VES_INTERRUPTED, "interrupted: %d of %d files are not written", count - k,
+                            count);
         char *path = ves_folder_free(stem, format[k]->name, &a->arena);
         if (!path) return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
         ves_status status = format[k]->write(figure, path, a->diag);
@@ -76,9 +83,9 @@ int app_export(app *a)
         return app_fail(a, VES_USAGE, "vesica export needs --to FORMAT (vesica list formats)");
     code = formats_read(a, format, &count);
     if (code != APP_DONE || !app_shape_open(a, &shape, &code)) return code;
-    ves_figure *figure = app_shape_figure(a, &shape, &code);
-    char *stem = figure ? stem_of(a, shape.opened.name, &code) : NULL;
-    if (stem) code = write_all(a, figure, stem, format, count);
+    char *stem = stem_of(a, shape.opened.name, &code);
+    ves_figure *figure = stem ? app_shape_figure(a, &shape, &code) : NULL;
+    if (figure) code = write_all(a, figure, stem, format, count);
     ves_figure_destroy(figure);
     app_shape_close(&shape);
     return code;

@@ -1,5 +1,6 @@
 #include "study/open.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -28,7 +29,7 @@ static ves_status file_length(FILE *file, size_t *length)
 {
     if (fseek(file, 0, SEEK_END)) return VES_IO;
     long end = ftell(file);
-    rewind(file);
+    if (fseek(file, 0, SEEK_SET)) return VES_IO; /* rewind would forget errno */
     *length = (size_t)end;
     return end >= 0 && end <= LIMIT ? VES_OK : VES_IO;
 }
@@ -47,15 +48,14 @@ static ves_status load(const char *path, ves_arena *arena, char **text, size_t *
     return status;
 }
 
-/* JSON is YAML. */
+/* JSON is YAML. NULL: it is not whole, or no object. */
 static const ves_node *parse(const char *text, size_t length, ves_arena *arena)
 {
     ves_script *script = ves_arena_take(arena, 1, sizeof *script);
     const ves_node *root = NULL;
     if (!script || ves_script_init(script, text, length, arena) != VES_OK) return NULL;
-    if (ves_tree_read(script, arena, &root, NULL) != VES_OK || !root || root->kind != VES_NODE_MAP)
-        return NULL;
-    return ves_node_find(root, "variables");
+    bool read = ves_tree_read(script, arena, &root, NULL) == VES_OK;
+    return read && root && root->kind == VES_NODE_MAP ? root : NULL;
 }
 
 static ves_status best_read(const char *run, ves_arena *arena, best *out, ves_diag *diag)
@@ -64,12 +64,18 @@ static ves_status best_read(const char *run, ves_arena *arena, best *out, ves_di
     size_t length = 0;
     *out = (best){.run = run};
     if (!path) return no_memory(diag);
+    errno = 0;
     ves_status status = load(path, arena, &text, &length);
     if (status == VES_MEMORY) return no_memory(diag);
     if (status != VES_OK)
         return ves_diag_add(diag, VES_ERROR, VES_IO, NOWHERE,
-                            "\"%s\" is not the folder of a finished run: \"%s\" cannot be read", run, path);
-    out->variables = parse(text, length, arena);
+                            "\"%s\" is not the folder of a finished run: \"%s\" cannot be read: %s", run,
+                            path, errno ? strerror(errno) : "it is no file of a run");
+    const ves_node *root = parse(text, length, arena);
+    if (!root)
+        return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE,
+                            "\"%s\" is damaged or not whole: run \"%s/problem.yaml\" again", path, run);
+    out->variables = ves_node_find(root, "variables");
     if (out->variables && out->variables->kind == VES_NODE_MAP) return VES_OK;
     return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE, "\"%s\" holds no variables", path);
 }
