@@ -236,7 +236,10 @@ static double volume_of(const char *x, const char *corner, size_t triangles)
 
 Test(output, vtp_holds_points_triangles_and_fields)
 {
-    for (int k = 0; k < 2; k++) {
+    static const size_t count[3] = {2 * (1 + 9 * 20), 5 * 14 + 2 * 15, 5 * 14 + 2 * 14};
+    int lid[12][3];
+    for (int t = 0; t < 12; t++) lid[t][0] = 0, lid[t][1] = t + 1, lid[t][2] = t + 2;
+    for (int k = 0; k < 3; k++) {
         ves_figure figure;
         ves_mesh mesh;
         size_t size, points = 0, triangles = 0;
@@ -244,6 +247,7 @@ Test(output, vtp_holds_points_triangles_and_fields)
             shape_sphere(&figure, 1.3, 9, 20);
         else
             shape_pipe(&figure, 0.6, 1.7, true, 4, 14);
+        if (k == 2) figure.patch[0].lid[0] = figure.patch[0].lid[1] = lid[0];
         figure.title = "Ä <ring> & \"more\"";
         char *data = (char *)exported(&figure, "vtp", &size);
         sscanf(strstr(data, "NumberOfPoints"), "NumberOfPoints=\"%zu\"", &points);
@@ -251,8 +255,9 @@ Test(output, vtp_holds_points_triangles_and_fields)
         ves_figure_mesh(&figure, &mesh, NULL, NULL);
         cr_assert(triangles == (size_t)mesh.triangles, "got %zu triangles want %d", triangles,
                   mesh.triangles);
-        /* patches keep their own points: one pole and nine rows each; or five rows and two caps */
-        cr_assert(points == (k == 0 ? 2 * (1 + 9 * 20) : 5 * 14 + 2 * 15), "got %zu points", points);
+        /* patches keep their own points: one pole and nine rows each; or five rows and two caps, as fans with
+         * a middle or cut without one */
+        cr_assert(points == count[k], "got %zu points", points);
         const char *x = block(data, "Points", 24 * points),
                    *corner = block(data, "connectivity", 24 * triangles);
         const char *end = block(data, "offsets", 8 * triangles),
@@ -271,10 +276,13 @@ Test(output, vtp_holds_points_triangles_and_fields)
             cr_assert(real(h, s) == want, "H at %zu of %d: got %g want %g", s, of, real(h, s), want);
             cr_assert(real(u, s) >= 0 && real(u, s) <= 1 && real(v, s) >= 0 && real(v, s) < 2 * PI);
             cr_assert(of >= -1 && of < figure.patches);
+            if (of < 0) /* pointing out of the pipe */
+                cr_assert(real(normal, 3 * s + 2) * (real(x, 3 * s + 2) - 0.65) > 0.84, "cap at %zu", s);
         }
         ves_mesh_facts facts;
         char message[VES_BRIDGE_TEXT];
         ves_bridge_facts(&mesh, false, &facts, message);
+        cr_assert(facts.closed && facts.outward);
         double volume = volume_of(x, corner, triangles);
         /* the same triangles: rounding of ~1e3 terms */
         cr_assert(fabs(volume - facts.volume) < 1e-13, "volume: got %.17g want %.17g", volume, facts.volume);

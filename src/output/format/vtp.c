@@ -91,18 +91,19 @@ static void cross_add(double sum[3], const double *o, const double *a, const dou
     }
 }
 
-/* The end's nodes once more and, of a fan, their middle, with one normal, that of the whole. */
+/* The end's nodes once more and, of a fan, their middle; normals are those of the triangles around each,
+ * which on a flat cap are all the same. */
 static void cap_add(sheet *s, const ves_figure *figure, int patch, int end, int *corner)
 {
     const ves_figure_patch *p = &figure->patch[patch];
     int row = end ? p->nu * p->columns : 0, count = ves_figure_cap(p, end, corner);
     int64_t first = s->points, middle = -1, last = first + p->columns - 1;
-    double normal[3] = {0};
     for (int j = 0; j < p->columns; j++) point_add(s, figure, patch, row + j, -1);
     if (!p->lid[end]) {
         middle = last = point_add(s, figure, patch, row, -1);
         ves_figure_middle(p, end, s->x + 3 * middle);
     }
+    memset(s->normal + 3 * first, 0, 3 * sizeof *s->normal * (size_t)(last + 1 - first));
     for (int t = 0; t < count; t++) {
         int64_t at[3];
         for (int k = 0; k < 3; k++) {
@@ -110,11 +111,12 @@ static void cap_add(sheet *s, const ves_figure *figure, int patch, int end, int 
             at[k] = node < 0 ? middle : first + node - row;
         }
         triangle_add(s, at[0], at[1], at[2]);
-        cross_add(normal, s->x + 3 * at[0], s->x + 3 * at[1], s->x + 3 * at[2]);
+        for (int k = 0; k < 3; k++)
+            cross_add(s->normal + 3 * at[k], s->x + 3 * at[0], s->x + 3 * at[1], s->x + 3 * at[2]);
     }
-    double size = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     for (int64_t k = first; k <= last; k++) {
-        for (int c = 0; c < 3; c++) s->normal[3 * k + c] = size > 0 ? normal[c] / size : 0;
+        double *n = s->normal + 3 * k, size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int c = 0; c < 3 && size > 0; c++) n[c] /= size;
         for (int q = H; q <= K2; q++) s->scalar[q][k] = 0;
     }
 }
