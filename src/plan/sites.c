@@ -508,11 +508,11 @@ static double tile_unscale(const ves_tile *tile, double similarity, const ves_ti
             const double *x = field->at[f * 3 + c];
             double *g = adjoint->at[f * 3 + c];
             for (int k = 0; k < tile->rows * VES_LANES; k++) {
-                sum += g[k] * x[k] / similarity;
+                sum += g[k] * x[k];
                 g[k] *= similarity;
             }
         }
-    return sum;
+    return sum / similarity;
 }
 
 static double curve_scatter(ves_plan *plan, plan_site *s)

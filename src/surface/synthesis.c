@@ -162,7 +162,9 @@ HOT void unfold_rows(const ves_synthesis *s, const double *t, bool swapped, cons
         ce[r] = swapped ? e : E, co[r] = swapped ? o : O;
         se[r] = swapped ? E : e, so[r] = swapped ? O : o;
     }
-    for (int r = 0; r < run; r++) *(lanes *)mode += ce[r] * t[r];
+    lanes mean = *(lanes *)mode;
+    for (int r = 0; r < run; r++) mean += ce[r] * t[r];
+    *(lanes *)mode = mean;
     double *m = mode + nu;
     const double *tn = t + FOUR;
     int n = 1;

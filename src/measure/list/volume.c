@@ -5,21 +5,21 @@
  * sphere, cylinder with caps, translation */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
-    double sum = 0;
+    double caps = 0, sum = 0;
     for (int i = 0; i < input->samples; i++) {
         const ves_samples *s = input->sample[i];
         if (s->site == VES_SITE_CAP) {
             ves_cap cap = ves_cap_init(s);
-            for (int c = 0; c < 3; c++) sum += s->side / 6 * cap.mean[c] * cap.twice_area[c];
+            for (int c = 0; c < 3; c++) caps += s->side / 6 * cap.mean[c] * cap.twice_area[c];
             continue;
         }
         const double *restrict x = s->X[0], *restrict y = s->X[1], *restrict z = s->X[2],
                                *restrict dA = s->dA;
         const double *restrict p = s->normal[0], *restrict q = s->normal[1], *restrict r = s->normal[2];
 #pragma omp simd reduction(+ : sum)
-        for (int n = 0; n < s->count; n++) sum += (x[n] * p[n] + y[n] * q[n] + z[n] * r[n]) * dA[n] / 3;
+        for (int n = 0; n < s->count; n++) sum += (x[n] * p[n] + y[n] * q[n] + z[n] * r[n]) * dA[n];
     }
-    *value = sum;
+    *value = sum / 3 + caps;
     return VES_OK;
 }
 
@@ -27,6 +27,7 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
                      double *number_adjoint)
 {
     (void)number_adjoint;
+    const double third = seed / 3;
     for (int i = 0; i < input->samples; i++) {
         const ves_samples *s = input->sample[i];
         const ves_adjoint *g = adjoint[i];
@@ -40,15 +41,17 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
             ves_cap_gradient(s, &back, g);
             continue;
         }
-        for (int c = 0; c < 3; c++) {
-            const double *restrict x = s->X[c], *restrict p = s->normal[c], *restrict dA = s->dA;
-            double *restrict gx = g->X[c], *restrict gp = g->normal[c], *restrict gA = g->dA;
+        const double *restrict x = s->X[0], *restrict y = s->X[1], *restrict z = s->X[2],
+                               *restrict dA = s->dA;
+        const double *restrict p = s->normal[0], *restrict q = s->normal[1], *restrict r = s->normal[2];
+        double *restrict gx = g->X[0], *restrict gy = g->X[1], *restrict gz = g->X[2], *restrict gA = g->dA;
+        double *restrict gp = g->normal[0], *restrict gq = g->normal[1], *restrict gr = g->normal[2];
 #pragma omp simd
-            for (int n = 0; n < s->count; n++) {
-                gx[n] += seed / 3 * p[n] * dA[n];
-                gp[n] += seed / 3 * x[n] * dA[n];
-                gA[n] += seed / 3 * x[n] * p[n];
-            }
+        for (int n = 0; n < s->count; n++) {
+            double w = third * dA[n];
+            gx[n] += w * p[n], gy[n] += w * q[n], gz[n] += w * r[n];
+            gp[n] += w * x[n], gq[n] += w * y[n], gr[n] += w * z[n];
+            gA[n] += third * (x[n] * p[n] + y[n] * q[n] + z[n] * r[n]);
         }
     }
 }
