@@ -143,9 +143,16 @@ static ves_status ready(void)
         "[2, 3, 0], [3, 3, 0]]]}, periodic: false}\n"
         "measures: {e: {distance: {from: p, to: q}}, b: {max: {of: H, smooth: 4}}}\n"
         "scale: {equation: area == 2}\nminimize: e + b\nexpect: [feasible]\n";
-    static const char *const text[] = {TEXT, sheets};
+    static const char seams[] = /* a ring turned against itself, and caps that CGAL must cut */
+        "vesica: 1\nquadrature: {u: 16, v: 8}\nvariables: {t: [-2, 1, 2]}\npatches:\n"
+        "  ring: {surface: {formula: [\"(3 + cos(v + t*u))*cos(2*pi*u)\", \"(3 + cos(v + "
+        "t*u))*sin(2*pi*u)\", "
+        "\"sin(v + t*u)\"]}}\n"
+        "  wall: {surface: {formula: [\"2*cos(v) + 9\", \"0.4*sin(v) + 1.2*cos(v)^2\", \"2*u\"]}}\n"
+        "shape: {closed: true, caps: [wall.u0, wall.u1]}\nminimize: volume\n";
+    static const char *const text[] = {TEXT, sheets, seams};
     ves_status status = VES_OK;
-    for (int k = 0; k < 2 && status == VES_OK; k++) {
+    for (int k = 0; k < 3 && status == VES_OK; k++) {
         ves_problem *problem = NULL;
         ves_plan *plan = NULL;
         ves_diag *diag = ves_diag_create();
