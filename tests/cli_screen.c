@@ -158,6 +158,20 @@ Test(cli_screen, every_list_is_one_json_object_too)
     root_remove();
 }
 
+Test(cli_screen, what_is_proposed_can_be_typed)
+{
+    root_make();
+    write_file("tilted.yaml", tilted);
+    setenv("VESICA_AS", "./vesica", 1); /* as the launcher does */
+    expect(vesica(NULL, "run tilted.yaml --evaluations 200"), 0,
+           "next: ./vesica export runs/tilted-0001 --to stl,obj", NULL, "run");
+    expect(vesica(NULL, "new can"), 0, NULL, "next: ./vesica check can.yaml", "new");
+    unsetenv("VESICA_AS");
+    expect(vesica(NULL, "export runs/tilted-0001 --to stl,obj"), 0, "tilted-0001.obj", NULL,
+           "the first proposal");
+    root_remove();
+}
+
 Test(cli_screen, the_picture_of_a_run_shows_the_mean_curvature)
 {
     root_make();

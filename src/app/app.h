@@ -88,6 +88,9 @@ void app_plugins_close(app *a);
 void app_interrupt_listen(void);
 bool app_interrupt_asked(void);
 
+/* main.c: how the program was called, for commands that it proposes: "./vesica", "vesica". */
+const char *app_called(void);
+
 /* help.c */
 void app_help_command(const app_command *command, FILE *out);
 const app_command *app_command_find(const char *name);

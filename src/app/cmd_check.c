@@ -143,6 +143,9 @@ static void json_print(const checked *c)
         ves_json_end(&json, '}');
     }
     ves_json_end(&json, '}');
+    ves_json_array(&json, "notes"); /* what is wrong with the start */
+    for (int k = 0; k < c->run->notes; k++) ves_json_text(&json, NULL, c->run->note[k]);
+    ves_json_end(&json, ']');
     ves_json_number(&json, "evaluation_s", c->value_time);
     ves_json_number(&json, "gradient_s", c->gradient_time);
     ves_json_end(&json, '}');

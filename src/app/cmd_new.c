@@ -67,7 +67,7 @@ static int write_new(app *a, const app_template *t, const char *path)
         return code;
     }
     printf("%s\n", path);
-    fprintf(stderr, "next: vesica check %s, then vesica run %s\n", path, path);
+    fprintf(stderr, "next: %s check %s, then %s run %s\n", app_called(), path, app_called(), path);
     return APP_DONE;
 }
 

@@ -2,6 +2,7 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "app/app.h"
@@ -55,6 +56,12 @@ bool app_open(app *a, ves_opened *opened, int *code)
     app_say(a);
     *code = status == VES_IO ? APP_WRONG : app_code(status); /* a file that is not there was misspelt */
     return status == VES_OK;
+}
+
+const char *app_called(void)
+{
+    const char *name = getenv("VESICA_AS"); /* by the launcher */
+    return name && *name ? name : "vesica";
 }
 
 /* Words that a later version will understand. */

@@ -209,8 +209,9 @@ static void differences(const ves_run *run, int index, char *text, size_t size)
         if (which < 0 || next < APART * largest) return;
         most = next;
         const ves_variable *v = &p->variable[which];
+        double value = fabs(x[which]) < AT_LIMIT * (v->max - v->min) ? 0 : x[which] / v->shown.factor;
         int written = snprintf(text + length, size - length, "%s%s = %.4g%s%s", shown ? ", " : "   at ",
-                               v->name, x[which] / v->shown.factor, *v->shown.unit ? " " : "", v->shown.unit);
+                               v->name, value, *v->shown.unit ? " " : "", v->shown.unit);
         length += (size_t)written < size - length ? (size_t)written : size - length - 1;
     }
 }
@@ -295,7 +296,8 @@ static void conclusion(const ves_run *run, FILE *out)
     fprintf(out, "\n  %s/   %sstart.vtp  result.json  %slog.txt\n", run->folder,
             run->any ? "best.vtp  best.png  " : "", run->searched ? "trace.jsonl  " : "");
     if (run->any)
-        fprintf(out, "  next: vesica export %s --to stl,obj    vesica show %s\n", run->folder, run->folder);
+        fprintf(out, "  next: %s export %s --to stl,obj    %s show %s\n", app_called(), run->folder,
+                app_called(), run->folder);
 }
 
 void app_screen_run(const ves_run *run, FILE *out)
