@@ -52,8 +52,9 @@ static const char TEXT[] =
     "patches: {wall: {operator: {power: 1, a: 1.3}, modes: 6, conditions: [{u: 0, position: p}, {u: 1, "
     "position: q}]}}\n"
     "shape: {closed: true, caps: [wall.u0, wall.u1]}\nplaces: {tip: {patch: wall, u: 0.5, v: 1}}\n"
-    "measures: {d: {distance: {from: tip, to: p}}, m: {integral: {of: \"H^2*x\"}}}\n"
-    "minimize: area + bending + d + m\nconstraints: [area <= 14*lid]\n"
+    "measures: {d: {distance: {from: tip, to: p}}, m: {integral: {of: \"H^2*x\"}}, top: {max: {of: \"z + "
+    "k1\"}}}\n"
+    "minimize: area + bending + d + m + top + width\nconstraints: [area <= 14*lid]\n"
     "search: [{anneal: {evaluations: 40, chains: 2}}, {polish: {evaluations: 20, starts: 1, escape: "
     "false}}]\n";
 

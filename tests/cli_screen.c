@@ -37,7 +37,7 @@ Test(cli_screen, numbers_are_in_the_units_of_the_file)
     cr_assert(eq(int, o.code, 0), "%s", o.err);
     has_lines(o.out, (const char *const[]){"r 31.7 [20, 80] mm\n", "tilt 3 [-20, 20] deg\n", "cm^2\n",
                                            " 12 cm ok\n", " 0.03 m ok\n", "tilt <= 10 deg 3 10 deg ok\n",
-                                           "\n up 10.43595 cm\n", "\n out 0.1000262 m\n", NULL});
+                                           "\n up 10.43578 cm\n", "\n out 0.1 m\n", NULL});
     done(&o);
     o = vesica(NULL, "run tilted.yaml --evaluations 1500 --json");
     cr_assert(eq(int, o.code, 0), "%s", o.err);

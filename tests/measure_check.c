@@ -77,6 +77,9 @@ Test(measure_check, a_descriptor_that_lacks_something_is_refused_in_words)
     for (int k = 0; k < 6; k++)
         m = sound, m.curve = VES_X | nowhere[k], refused(&m, "curves and places for more than X, Xv and Xvv");
     m = sound, m.surface = 0, refused(&m, "reads nothing");
+    m = sound, m.looks = -1, refused(&m, "has a number of looks that is not 0 .. 8");
+    m = sound, m.looks = 9, refused(&m, "has a number of looks that is not 0 .. 8");
+    m = sound, m.surface = 0, m.looks = 1, refused(&m, "looks at surfaces but asks for nothing there");
 }
 
 Test(measure_check, keys_that_nobody_could_answer_are_refused_in_words)

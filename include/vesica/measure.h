@@ -40,7 +40,8 @@ typedef enum ves_site {
     VES_SITE_CAP, /* an end curve closed by a flat fan to its mean point; nodes along v (nu = 1): everything,
                      but of the patch at that end. The fan itself is what X and Xv make of it */
     VES_SITE_CURVE, /* a curve that a CURVE or PLACE key names; nodes along v (nu = 1): X, Xv, Xvv */
-    VES_SITE_PLACE  /* one named point of a patch (nu = nv = 1): X, Xv, Xvv */
+    VES_SITE_PLACE, /* one named point of a patch (nu = nv = 1): X, Xv, Xvv */
+    VES_SITE_LOOK   /* 3 x 3 points of a patch wherever the measure wants them: what it asks of surfaces */
 } ves_site;
 
 /* Samples of one site. A plane that nobody asked for is NULL. */
@@ -71,9 +72,9 @@ typedef struct ves_adjoint {
 } ves_adjoint;
 
 /* What an instance of a measure reads. Samples come in this order: surfaces (those named in `over`, or all;
- * none when `surface` is 0), caps (none when `cap` is 0), then one for each CURVE or PLACE key that was
- * given, in the order of the table. An optional key that was not given has no sample: those behind it move
- * up. ves_sample_of finds them. */
+ * none when `surface` is 0), caps (none when `cap` is 0), looks (`looks` for each surface), then one for each
+ * CURVE or PLACE key that was given, in the order of the table. An optional key that was not given has no
+ * sample: those behind it move up. ves_sample_of finds them. */
 typedef struct ves_measure_input {
     int samples;
     const ves_samples *const *sample;
@@ -82,6 +83,14 @@ typedef struct ves_measure_input {
     double *room;         /* scratch: what `room` asked for */
     int level;            /* 0: the grid of the search, 1: the one twice as fine */
     void *state;          /* what `prepare` made for this plan and level, or NULL */
+
+    /* NULL where there are no looks. Samples the surface exactly, between nodes and on its ends too.
+     * Fills look number k of surface number i at the points u[0..2] x v[0..2] (node = 3 j + i; 0 <= u <= 1,
+     * 0 <= v <= 2 pi; they may coincide) and returns the index of its sample and of its adjoint; -1: at one
+     * of them the surface has no number, or no tangent plane for what needs one. What a look was filled with
+     * last in eval is what gradient finds. It costs as much as some ten nodes for each Fourier mode. */
+    int (*look)(const struct ves_measure_input *input, int i, int k, const double u[3], const double v[3]);
+    int first_look; /* index of the first sample of looks */
 } ves_measure_input;
 
 /* The index of the sample, and of its adjoint, that belongs to key number k, a CURVE or PLACE; -1: the key
@@ -117,8 +126,8 @@ typedef struct ves_measure {
     int degree;   /* of homogeneity: scaling the shape by s scales the measure by s^degree (for exact scale:).
                      VES_NO_DEGREE: it does not scale so, and cannot be used in scale: */
     int cost;     /* 0: like the samples themselves; 1: dear (solves systems): measured last */
-    bool extreme; /* an extreme over nodes: it settles slowly as grids get finer and has no say in choosing
-                     one */
+    bool extreme; /* an extreme: it has no say in choosing a grid */
+    int looks;    /* places between nodes that it looks at, for each surface: see `look` */
     unsigned surface; /* VES_X | ... wanted at surface nodes */
     unsigned cap;     /* ... along caps; 0: the measure does not look at caps */
     unsigned curve;   /* ... along curves and at places that keys name: of VES_X, VES_XV, VES_XVV */

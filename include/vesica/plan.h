@@ -25,8 +25,8 @@ ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *o
 void ves_plan_destroy(ves_plan *plan);
 
 /* The quadrature that `auto` chooses: from 16 nodes along u, and along v enough to see the modes that are
- * solved, each direction is refined by half until two refinements in a row change no measure (extremes over
- * nodes left out) by more than 1e-9 of its size, up to 64 and 264 nodes. Measured at the start design or, if
+ * solved, each direction is refined by half until two refinements in a row change no measure (extremes
+ * left out) by more than 1e-9 of its size, up to 64 and 264 nodes. Measured at the start design or, if
  * that cannot be measured, at the first of 31 others that can. change: the largest relative change left on
  * the grid chosen; NAN when nothing could be measured. */
 ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], double *change, ves_diag *diag);

@@ -134,6 +134,9 @@ ves_status ves_measure_check(const ves_measure *m, ves_diag *diag)
     if (!m->eval) return fault(diag, m, "has no eval");
     if (!readable(m->unit))
         return fault(diag, m, "has no unit that can be read; of a plain number it is \"1\"");
+    if (m->looks < 0 || m->looks > VES_MEASURE_LOOKS)
+        return fault(diag, m, "has a number of looks that is not 0 .. 8");
+    if (m->looks && !m->surface) return fault(diag, m, "looks at surfaces but asks for nothing there");
     what = mask_fault(m);
     return what ? fault(diag, m, what) : check_keys(m, diag);
 }

@@ -4,61 +4,22 @@
 #include <math.h>
 
 #include "measure/argument.h"
-#include "measure/cell.h"
+#include "measure/hill.h"
+#include "measure/summit.h"
 
-enum { CHUNK = 64 };
+enum { CHUNK = 64, STEPS = 12 };
 
-/* value + p x + q y + (a x^2 + 2 b x y + c y^2) / 2 */
-typedef struct quadric {
-    double value, p, q, a, b, c;
-} quadric;
+static const double AROUND = 6.283185307179586;
 
 static double along(const double *const plane[3], int n, const double d[3])
 {
     return d[0] * plane[0][n] + d[1] * plane[1][n] + d[2] * plane[2][n];
 }
 
-static quadric quadric_init(const ves_samples *s, int n, const double d[3])
+static ves_quadric quadric_init(const ves_samples *s, int n, const double d[3])
 {
-    return (quadric){along(s->X, n, d),   along(s->Xu, n, d),  along(s->Xv, n, d),
-                     along(s->Xuu, n, d), along(s->Xuv, n, d), along(s->Xvv, n, d)};
-}
-
-static double quadric_at(const quadric *f, double x, double y)
-{
-    return f->value + (f->p + f->a * x / 2 + f->b * y) * x + (f->q + f->c * y / 2) * y;
-}
-
-static void keep(const quadric *f, double x, double y, ves_extreme *best)
-{
-    double value = quadric_at(f, x, y);
-    if (value > best->value) best->value = value, best->du = x, best->dv = y;
-}
-
-/* Where slope * t + bend * t^2 / 2 is largest on [lo, hi]. */
-static double crest(double slope, double bend, double lo, double hi)
-{
-    if (bend < 0) return fmin(fmax(-slope / bend, lo), hi);
-    return slope * (hi - lo) + bend * (hi * hi - lo * lo) / 2 > 0 ? hi : lo;
-}
-
-/* The largest value on the cell: inside, where the quadric is a hill with its top there, or on an edge. */
-static void climb(const quadric *f, const ves_cell *cell, ves_extreme *best)
-{
-    double det = f->a * f->c - f->b * f->b;
-    best->value = f->value, best->du = 0, best->dv = 0;
-    if (f->a < 0 && det > 0) {
-        double x = (f->b * f->q - f->c * f->p) / det, y = (f->b * f->p - f->a * f->q) / det;
-        if (x >= cell->lo[0] && x <= cell->hi[0] && y >= cell->lo[1] && y <= cell->hi[1]) {
-            keep(f, x, y, best);
-            return;
-        }
-    }
-    for (int end = 0; end < 2; end++) {
-        double x = end ? cell->hi[0] : cell->lo[0], y = end ? cell->hi[1] : cell->lo[1];
-        keep(f, x, crest(f->q + f->b * x, f->c, cell->lo[1], cell->hi[1]), best);
-        keep(f, crest(f->p + f->b * y, f->a, cell->lo[0], cell->hi[0]), y, best);
-    }
+    return (ves_quadric){along(s->X, n, d),   along(s->Xu, n, d),  along(s->Xv, n, d),
+                         along(s->Xuu, n, d), along(s->Xuv, n, d), along(s->Xvv, n, d)};
 }
 
 static double nodal(const ves_samples *s, const double d[3])
@@ -90,10 +51,11 @@ static void bounds(const ves_samples *s, int first, int count, const double d[3]
 #undef ALONG
 }
 
-/* Looks into every cell of one column of chunks that could hold more than the best so far. */
-static void search(const ves_samples *s, int sample, int column, const double d[3], ves_extreme *best)
+/* The tops of the cells in one column of chunks that could hold more than `most`, the bounds being a tenth
+ * too low; of the others -inf. */
+static void tops(const ves_samples *s, int column, const double d[3], double most, double *top)
 {
-    double ru[CHUNK], bound[CHUNK], lo, hi;
+    double ru[CHUNK], bound[CHUNK], lo, hi, where[2];
     int count = s->nu - column < CHUNK ? s->nu - column : CHUNK;
     for (int k = 0; k < count; k++) {
         ves_cell_u(s, column + k, &lo, &hi);
@@ -103,29 +65,118 @@ static void search(const ves_samples *s, int sample, int column, const double d[
         ves_cell_v(s, j, &lo, &hi);
         bounds(s, j * s->nu + column, count, d, ru, ves_cell_reach(lo, hi), bound);
         for (int k = 0; k < count; k++) {
-            if (!(bound[k] >= best->value)) continue;
-            ves_extreme top = {.sample = sample, .node = j * s->nu + column + k};
-            quadric f = quadric_init(s, top.node, d);
-            ves_cell cell = ves_cell_init(s, top.node);
-            climb(&f, &cell, &top);
-            if (top.value > best->value) *best = top;
+            int n = j * s->nu + column + k;
+            top[n] = -HUGE_VAL;
+            if (!(bound[k] + 0.1 * (bound[k] - along(s->X, n, d)) >= most)) continue;
+            ves_quadric f = quadric_init(s, n, d);
+            ves_cell cell = ves_cell_init(s, n);
+            top[n] = ves_quadric_top(&f, &cell, where);
         }
     }
 }
 
-ves_status ves_extreme_find(const ves_measure_input *input, const double d[3], ves_extreme *extreme)
+/* The top of a cell. */
+static ves_extreme cell_top(const ves_measure_input *input, int sample, int node, const double d[3])
 {
-    double most = -HUGE_VAL;
+    const ves_samples *s = input->sample[sample];
+    ves_quadric f = quadric_init(s, node, d);
+    ves_cell cell = ves_cell_init(s, node);
+    double top[2], value = ves_quadric_top(&f, &cell, top);
+    return (ves_extreme){.surface = sample,
+                         .at = {s->u[node % s->nu], s->v[node / s->nu]},
+                         .sample = sample,
+                         .node = node,
+                         .du = top[0],
+                         .dv = top[1],
+                         .value = value};
+}
+
+static int look(const ves_measure_input *input, int number, const ves_extreme *e)
+{
+    double x = e->at[0], y = ves_hill_wrap(input->sample[e->surface], e->at[1]);
+    const double u[3] = {x, x, x}, v[3] = {y, y, y};
+    return input->look(input, e->surface, number, u, v);
+}
+
+/* Newton's steps, kept within the size of a cell. Where they are short the Taylor polynomial is exact. */
+static ves_extreme go_up(const ves_measure_input *input, int number, const double d[3], double rounding,
+                         ves_extreme e)
+{
+    static const double SHORT = 1e-4; /* its third power is the error */
+    const ves_samples *s = input->sample[e.surface];
+    ves_cell cell = ves_cell_init(s, e.node);
+    double reach[2], best = -HUGE_VAL;
+    for (int k = 0; k < 2; k++) reach[k] = ves_cell_reach(cell.lo[k], cell.hi[k]);
+    for (int k = 0; k < STEPS; k++) {
+        ves_extreme next = {.surface = e.surface, .node = 4, .at = {e.at[0] + e.du, e.at[1] + e.dv}};
+        next.at[0] = fmin(fmax(next.at[0], 0), 1);
+        if (!s->periodic) next.at[1] = fmin(fmax(next.at[1], 0), AROUND);
+        next.sample = look(input, number, &next);
+        if (next.sample < 0) return e;
+        ves_quadric f = quadric_init(input->sample[next.sample], next.node, d);
+        if (!(f.value >= best - rounding)) { /* back */
+            look(input, number, &e);
+            return e;
+        }
+        ves_cell box = ves_hill_box(s, next.at, reach);
+        double top[2];
+        best = f.value;
+        next.value = ves_quadric_top(&f, &box, top);
+        bool near = fabs(top[0]) < SHORT && fabs(top[1]) < SHORT, level = next.value <= f.value + rounding;
+        if (near || !level)
+            next.du = top[0], next.dv = top[1]; /* a far top of what is level is but rounding */
+        e = next;
+        if (near || level) return e;
+    }
+    return e;
+}
+
+/* From the highest hills up; the last look is at the summit. */
+static void summit(const ves_measure_input *input, int number, const double d[3], const double *top,
+                   double rounding, ves_extreme *best)
+{
+    ves_hill hill[VES_HILLS];
+    int count = ves_hills_find(input, top, rounding, hill);
+    bool fresh = false;
+    ves_extreme found = {.value = -HUGE_VAL};
+    for (int k = 0; k < count; k++) {
+        ves_extreme e = cell_top(input, hill[k].sample, hill[k].node, d);
+        double gain = e.value - along(input->sample[e.sample]->X, e.node, d);
+        if (e.value + gain < found.value) continue;
+        e = go_up(input, number, d, rounding, e);
+        fresh = e.value > found.value;
+        if (fresh) found = e;
+    }
+    if (!(found.value > -HUGE_VAL)) return;
+    if (!fresh && found.sample != found.surface) found.sample = look(input, number, &found);
+    if (found.sample >= 0) *best = found;
+}
+
+ves_status ves_extreme_find(const ves_measure_input *input, int number, const double d[3], double *room,
+                            ves_extreme *extreme)
+{
+    const double back[3] = {-d[0], -d[1], -d[2]};
+    double most = -HUGE_VAL, least = HUGE_VAL, *top = room;
     for (int i = 0; i < input->samples; i++)
-        if (input->sample[i]->site == VES_SITE_SURFACE) most = fmax(most, nodal(input->sample[i], d));
-    /* a little less, so that rounding does not hide the very node that has it */
-    *extreme = (ves_extreme){.sample = -1, .value = most - 1e-12 * fabs(most) - DBL_MIN};
+        if (input->sample[i]->site == VES_SITE_SURFACE) {
+            most = fmax(most, nodal(input->sample[i], d));
+            least = fmin(least, -nodal(input->sample[i], back));
+        }
+    double rounding = VES_HILL_ROUNDING * fmax(fabs(most), fabs(least));
+    most -= rounding + DBL_MIN; /* or rounding might hide the very node that has it */
+    *extreme = (ves_extreme){.sample = -1, .value = -HUGE_VAL};
     for (int i = 0; i < input->samples; i++) {
         const ves_samples *s = input->sample[i];
         if (s->site != VES_SITE_SURFACE) continue;
-        for (int column = 0; column < s->nu; column += CHUNK) search(s, i, column, d, extreme);
+        for (int column = 0; column < s->nu; column += CHUNK) tops(s, column, d, most, top);
+        for (int n = 0; n < s->count; n++)
+            if (top[n] > extreme->value) *extreme = (ves_extreme){.sample = i, .node = n, .value = top[n]};
+        top += s->count;
     }
-    return extreme->sample >= 0 && isfinite(extreme->value) ? VES_OK : VES_NO_NUMBER;
+    if (extreme->sample < 0 || !isfinite(extreme->value)) return VES_NO_NUMBER;
+    *extreme = cell_top(input, extreme->sample, extreme->node, d);
+    if (input->look) summit(input, number, d, room, rounding, extreme);
+    return VES_OK;
 }
 
 /* Weights of X, Xu, Xv, Xuu, Xuv, Xvv in the Taylor polynomial. */
@@ -161,8 +212,7 @@ void ves_extreme_gradient(const ves_extreme *extreme, const double back[3], cons
 
 size_t ves_extent_room(const ves_measure_input *input)
 {
-    (void)input;
-    return 2 * VES_EXTREME_ROOM;
+    return 2 * VES_EXTREME_ROOM + ves_summit_room(input);
 }
 
 ves_status ves_extent_eval(const ves_measure_input *input, const double unit[3], double *value)
@@ -172,7 +222,7 @@ ves_status ves_extent_eval(const ves_measure_input *input, const double unit[3],
         double sign = end ? -1 : 1, d[3] = {sign * unit[0], sign * unit[1], sign * unit[2]};
         double *room = input->room + end * VES_EXTREME_ROOM;
         ves_extreme e;
-        VES_TRY(ves_extreme_find(input, d, &e));
+        VES_TRY(ves_extreme_find(input, end, d, input->room + 2 * VES_EXTREME_ROOM, &e));
         room[0] = e.sample, room[1] = e.node, room[2] = e.du, room[3] = e.dv;
         sum += e.value;
     }
@@ -186,7 +236,8 @@ void ves_extent_gradient(const ves_measure_input *input, const double unit[3], d
     for (int end = 0; end < 2; end++) {
         double s = end ? -seed : seed, back[3] = {s * unit[0], s * unit[1], s * unit[2]}, point[3];
         const double *room = input->room + end * VES_EXTREME_ROOM;
-        ves_extreme e = {(int)room[0], (int)room[1], room[2], room[3], 0};
+        ves_extreme e = {
+            .sample = (int)room[0], .node = (int)room[1], .du = room[2], .dv = room[3], .value = 0};
         ves_extreme_gradient(&e, back, adjoint);
         ves_extreme_point(input, &e, point);
         for (int c = 0; unit_back && c < 3; c++) unit_back[c] += s * point[c];

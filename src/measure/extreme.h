@@ -1,10 +1,10 @@
 /* The farthest point of the surface along a direction d.
  *
- * In the cell of every node X is its Taylor polynomial of degree 2 about the node, and the result is the
- * largest d . X of all cells: third order in the spacing, wherever the extreme lies, since it is off by no
- * more than the remainder. Caps need no look: they lie within the hull of their curves. Derivative: the
- * maximiser is stationary, or held by an edge of its cell, so du and dv count as constants (envelope
- * theorem). */
+ * In the cell of every node X is its Taylor polynomial of degree 2 about the node: that tells which cells may
+ * hold the farthest point, and where, up to third order in the spacing. From there Newton's steps go on, by
+ * looks at the surface itself (measure/hill.h): the result is exact, on the ends of patches too. Caps need no
+ * look: they lie within the hull of their curves. Derivative: the maximiser is stationary, or held by an end
+ * of the patch, so du and dv count as constants (envelope theorem). */
 #ifndef VES_MEASURE_EXTREME_H
 #define VES_MEASURE_EXTREME_H
 
@@ -12,17 +12,23 @@
 
 enum {
     VES_EXTREME_SURFACE = VES_X | VES_XU | VES_XV | VES_XUU | VES_XUV | VES_XVV,
-    VES_EXTREME_ROOM = 4 /* doubles that hold one */
+    VES_EXTREME_ROOM = 4, /* doubles that hold one */
+    VES_EXTREME_LOOKS = 2 /* of an extent */
 };
 
 typedef struct ves_extreme {
-    int sample, node;
-    double du, dv; /* from the node */
-    double value;  /* d . X */
+    int surface;      /* sample of its surface */
+    double at[2];     /* u, v of the node */
+    int sample, node; /* of the surface or of a look */
+    double du, dv;    /* from the node */
+    double value;     /* d . X */
 } ves_extreme;
 
-/* VES_NO_NUMBER: d . X is nowhere a number. */
-ves_status ves_extreme_find(const ves_measure_input *input, const double d[3], ves_extreme *extreme);
+/* number: of the look that it may use. room: a double for each node. VES_NO_NUMBER: d . X is nowhere a
+ * number.
+ */
+ves_status ves_extreme_find(const ves_measure_input *input, int number, const double d[3], double *room,
+                            ves_extreme *extreme);
 
 void ves_extreme_point(const ves_measure_input *input, const ves_extreme *extreme, double point[3]);
 

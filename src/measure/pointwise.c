@@ -4,6 +4,7 @@
 
 #include "formula/formula.h"
 #include "measure/principal.h"
+#include "measure/summit.h"
 
 /* In the order of the arguments that the reader compiles POINTWISE formulas with. */
 enum { AT_X, AT_Y, AT_Z, AT_H, AT_K, AT_K1, AT_K2, AT_U, AT_V, NAMES };
@@ -77,18 +78,19 @@ double ves_pointwise_gradient(const ves_pointwise *p, const ves_samples *s, int 
     return value;
 }
 
-ves_status ves_pointwise_largest(const ves_measure_input *input, double sign, ves_pointwise_top *top)
+typedef struct signed_formula {
+    ves_pointwise pointwise;
+    double sign;
+} signed_formula;
+
+static double height(const void *of, const ves_samples *s, int node)
 {
-    ves_pointwise p = ves_pointwise_init(input);
-    *top = (ves_pointwise_top){.sample = -1, .value = -HUGE_VAL};
-    for (int i = 0; i < input->samples; i++) {
-        const ves_samples *s = input->sample[i];
-        if (s->site != VES_SITE_SURFACE) continue;
-        for (int n = 0; n < s->count; n++) {
-            double value = sign * ves_pointwise_eval(&p, s, n);
-            if (!isfinite(value)) return VES_NO_NUMBER;
-            if (value > top->value) *top = (ves_pointwise_top){i, n, value};
-        }
-    }
-    return top->sample >= 0 ? VES_OK : VES_NO_NUMBER;
+    const signed_formula *f = of;
+    return f->sign * ves_pointwise_eval(&f->pointwise, s, node);
+}
+
+ves_status ves_pointwise_largest(const ves_measure_input *input, double sign, double *room, double *value)
+{
+    const signed_formula f = {ves_pointwise_init(input), sign};
+    return ves_summit_find(input, height, &f, room, value);
 }

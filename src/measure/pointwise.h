@@ -28,11 +28,8 @@ double ves_pointwise_eval(const ves_pointwise *pointwise, const ves_samples *s, 
 double ves_pointwise_gradient(const ves_pointwise *pointwise, const ves_samples *s, int node, double weight,
                               const ves_adjoint *adjoint, double *number_adjoint);
 
-/* The largest value of sign * formula over the nodes; VES_NO_NUMBER: somewhere it is no number. */
-typedef struct ves_pointwise_top {
-    int sample, node;
-    double value;
-} ves_pointwise_top;
-ves_status ves_pointwise_largest(const ves_measure_input *input, double sign, ves_pointwise_top *top);
+/* The largest value of sign * formula over the surface (measure/summit.h); room as ves_summit_find has it.
+ * VES_NO_NUMBER: at some node it is no number. */
+ves_status ves_pointwise_largest(const ves_measure_input *input, double sign, double *room, double *value);
 
 #endif

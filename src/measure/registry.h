@@ -13,8 +13,8 @@ const ves_measure *ves_measure_find(const char *name, const ves_measure *const *
 /* Words with a meaning of their own in formulas, which nothing else can be called: "u|v|pi|...". */
 extern const char ves_names_reserved[];
 
-/* The most keys of a measure. */
-enum { VES_MEASURE_KEYS = 30 };
+/* The most keys and looks of a measure. */
+enum { VES_MEASURE_KEYS = 30, VES_MEASURE_LOOKS = 8 };
 
 /* Is the descriptor of a measure from outside sound (vesica/measure.h says what that is), and its name not
  * that of a built-in one? The status of the first fault, which diag then has, or VES_OK. */

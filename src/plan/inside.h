@@ -20,7 +20,7 @@ typedef enum plan_program {
     PROGRAMS
 } plan_program;
 
-/* One sampled place at one level: a patch's nodes, a cap, a named point, or a curve. */
+/* One sampled place at one level: a patch's nodes, a cap, a named point, a curve, or a look. */
 typedef struct plan_site {
     ves_samples samples;
     ves_adjoint adjoint;
@@ -34,6 +34,7 @@ typedef struct plan_site {
     double *trig; /* curve: [e][k][nv] */
     double side;  /* orientation of the patch */
     bool varies;
+    bool looked;              /* a look: filled since the other sites were sampled */
     unsigned needs[PROGRAMS]; /* VES_X | ... */
     unsigned wants;           /* all of them */
     unsigned slopes;          /* of the sweep at hand: planes whose adjoint some measure adds to */
@@ -41,10 +42,12 @@ typedef struct plan_site {
 
 /* One measure at one level. */
 typedef struct plan_instance {
-    ves_measure_input input;
+    ves_measure_input input; /* first: `look` finds the instance by it */
+    ves_plan *plan;
     const ves_adjoint **adjoint;
     int *site;      /* [input.samples] index into the level's sites */
     unsigned *need; /* [input.samples] what is read there */
+    int looks;      /* for each surface */
 } plan_instance;
 
 typedef struct plan_level {
@@ -100,8 +103,13 @@ struct ves_plan {
     ves_plan_counts counts;
 };
 
-/* sites.c: sampling and its transpose */
+/* level.c */
 ves_status ves_plan_level_build(ves_plan *plan, int index);
+
+/* sites.c: sampling and its transpose. finish: of a site whose kind, grid and needs are known. look: what
+ * measures call. */
+ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind);
+int ves_site_look(const ves_measure_input *input, int i, int k, const double u[3], const double v[3]);
 ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient);
 double ves_site_scatter(ves_plan *plan, plan_site *s); /* returns d J / d similarity, leaves adjoints 0 */
 void ves_site_gather(ves_plan *plan, plan_site *s);

@@ -1,4 +1,4 @@
-/* Sites: where a shape is sampled, what is sampled there, and the transpose of it. */
+/* Sites: sampling a shape at the places that level.c has laid out, and the transpose of it. */
 #include "plan/inside.h"
 
 #include <math.h>
@@ -72,7 +72,7 @@ static ves_status tiles_cut(ves_plan *plan, plan_site *s)
 }
 
 /* Completes a site whose kind, grid and needs are known. */
-static ves_status site_finish(ves_plan *plan, plan_site *s, ves_site kind)
+ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind)
 {
     ves_samples *m = &s->samples;
     *m = (ves_samples){.site = kind,
@@ -105,191 +105,6 @@ static ves_status site_finish(ves_plan *plan, plan_site *s, ves_site kind)
             }
     }
     return planes_take(plan, s);
-}
-
-/* --- which sites a measure reads
- * ------------------------------------------------------------------------------------------- */
-
-static int patches_of(const ves_problem *p, const ves_measure_def *m, int index)
-{
-    return m->over ? m->patch[index] : index < p->patches ? index : -1;
-}
-
-/* Key k names a curve or a place, and it was given. */
-static bool is_reference(const ves_measure_def *m, int k)
-{
-    ves_kind kind = m->measure->keys[k].kind;
-    return (kind == VES_CURVE || kind == VES_PLACE) && m->args.arg[k].given;
-}
-
-static int references(const ves_measure_def *m)
-{
-    int count = 0;
-    for (int k = 0; m->measure->keys && m->measure->keys[k].name; k++) count += is_reference(m, k);
-    return count;
-}
-
-/* Sample `at` of a measure must have these planes. */
-static void need(const ves_plan *plan, plan_level *l, int measure, int at, unsigned wanted)
-{
-    plan_instance *in = &l->instance[measure];
-    plan_site *s = &l->site[in->site[at]];
-    for (int p = 0; p < PROGRAMS; p++)
-        if (plan->runs[p][measure]) s->needs[p] |= wanted;
-    s->wants |= wanted;
-    in->need[at] = wanted;
-}
-
-/* The site of this kind that is there already, or -1. Places are told apart by where they are. */
-static int site_find(const plan_level *l, ves_site kind, int patch, int curve, const double at[2])
-{
-    for (int k = 0; k < l->sites; k++) {
-        const plan_site *s = &l->site[k];
-        if (s->samples.site != kind || s->patch != patch || s->curve != curve) continue;
-        if (kind == VES_SITE_CURVE ||
-            (s->grid.u[0] == at[0] && (kind == VES_SITE_CAP || s->grid.v[0] == at[1])))
-            return k;
-    }
-    return -1;
-}
-
-static ves_status cap_add(ves_plan *plan, plan_level *l, int k, int *index)
-{
-    const ves_end *cap = &plan->problem->shape.cap[k];
-    const double at[2] = {cap->end, 0};
-    *index = site_find(l, VES_SITE_CAP, cap->patch, -1, at);
-    if (*index >= 0) return VES_OK;
-    plan_site s = {.patch = cap->patch, .curve = -1, .samples.site = VES_SITE_CAP};
-    s.samples.side = (cap->end ? -1 : 1) * plan->side[cap->patch];
-    VES_TRY(ves_grid_ring(cap->end, l->quadrature[1], true, &plan->arena, &s.grid));
-    *index = l->sites;
-    l->site[l->sites++] = s;
-    return VES_OK;
-}
-
-static ves_status reference_add(ves_plan *plan, plan_level *l, const ves_arg *arg, int *index)
-{
-    plan_site s = {.patch = -1, .curve = -1};
-    double at[2] = {0, 0};
-    if (arg->place) {
-        const ves_place *place = &plan->problem->place[arg->ref[0]];
-        s.samples.site = VES_SITE_PLACE;
-        s.patch = place->patch;
-        at[0] = plan->block[place->u], at[1] = plan->block[place->v];
-    } else {
-        s.samples.site = VES_SITE_CURVE;
-        s.curve = arg->ref[0];
-    }
-    *index = site_find(l, s.samples.site, s.patch, s.curve, at);
-    if (*index >= 0) return VES_OK;
-    if (arg->place)
-        VES_TRY(ves_grid_given(1, &at[0], 1, &at[1], false, &plan->arena, &s.grid));
-    else
-        VES_TRY(ves_grid_ring(0, 2 * l->quadrature[1], true, &plan->arena, &s.grid));
-    *index = l->sites;
-    l->site[l->sites++] = s;
-    return VES_OK;
-}
-
-static ves_status instance_build(ves_plan *plan, plan_level *l, int m)
-{
-    const ves_problem *p = plan->problem;
-    const ves_measure_def *def = &p->measure[m];
-    const ves_measure *measure = def->measure;
-    plan_instance *in = &l->instance[m];
-    unsigned wanted = measure->needs ? measure->needs(&def->args) : measure->surface;
-    int surfaces = !wanted ? 0 : def->over ? def->over : p->patches;
-    int caps = measure->cap ? p->shape.caps : 0, refs = references(def), count = surfaces + caps + refs,
-        at = 0;
-    in->site = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->site);
-    in->need = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->need);
-    if (!in->site || !in->need) return VES_MEMORY;
-    for (int k = 0; k < surfaces; k++) {
-        in->site[at] = patches_of(p, def, k);
-        need(plan, l, m, at++, wanted);
-    }
-    for (int k = 0; k < caps; k++) {
-        VES_TRY(cap_add(plan, l, k, &in->site[at]));
-        need(plan, l, m, at++, measure->cap);
-    }
-    for (int k = 0; refs && measure->keys[k].name; k++) {
-        if (!is_reference(def, k)) continue;
-        VES_TRY(reference_add(plan, l, &def->args.arg[k], &in->site[at]));
-        need(plan, l, m, at++, measure->curve);
-    }
-    in->input.samples = count;
-    in->input.level = (int)(l - plan->level);
-    return VES_OK;
-}
-
-static ves_status instance_finish(ves_plan *plan, plan_level *l, int m)
-{
-    plan_instance *in = &l->instance[m];
-    const ves_measure_def *def = &plan->problem->measure[m];
-    int count = in->input.samples;
-    const ves_samples **sample = ves_arena_take(&plan->arena, (size_t)count, sizeof *sample);
-    in->adjoint = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->adjoint);
-    if (!sample || !in->adjoint) return VES_MEMORY;
-    for (int k = 0; k < count; k++) {
-        sample[k] = &l->site[in->site[k]].samples;
-        in->adjoint[k] = &l->site[in->site[k]].adjoint;
-    }
-    in->input.sample = sample;
-    in->input.args = &def->args;
-    in->input.number = plan->block;
-    size_t room = def->measure->room ? def->measure->room(&in->input) : 0;
-    in->input.room = ves_arena_doubles(&plan->arena, room);
-    if (!in->input.room) return VES_MEMORY;
-    return def->measure->prepare ? def->measure->prepare(&in->input, &in->input.state) : VES_OK;
-}
-
-/* What validity looks at, in the programs that judge. */
-static void validity_needs(const ves_problem *p, plan_level *l)
-{
-    unsigned all =
-        (p->validity.jacobian ? VES_NORMAL : 0) | (p->shape.closed ? VES_X | VES_NORMAL | VES_AREA : 0);
-    for (int k = 0; k < p->patches; k++) {
-        unsigned wanted = all;
-        if (p->validity.least_radius >= 0) wanted |= VES_X;
-        if (p->validity.monotone >= 0) wanted |= VES_XU;
-        l->site[k].needs[PROGRAM_JUDGE] |= wanted;
-        l->site[k].needs[PROGRAM_ALL] |= wanted;
-        l->site[k].wants |= wanted;
-    }
-}
-
-ves_status ves_plan_level_build(ves_plan *plan, int index)
-{
-    const ves_problem *p = plan->problem;
-    plan_level *l = &plan->level[index];
-    int most = p->patches + p->shape.caps;
-    for (int m = 0; m < p->measures; m++) most += references(&p->measure[m]);
-    l->site = ves_arena_take(&plan->arena, (size_t)most, sizeof *l->site);
-    l->instance = ves_arena_take(&plan->arena, (size_t)p->measures, sizeof *l->instance);
-    if (!l->site || !l->instance) return VES_MEMORY;
-    l->sites = p->patches;
-    for (int k = 0; k < p->patches; k++) {
-        plan_site *s = &l->site[k];
-        s->patch = k, s->curve = -1, s->samples.site = VES_SITE_SURFACE;
-        VES_TRY(ves_grid_quadrature(l->quadrature[0], l->quadrature[1], ves_patch_periodic(plan->patch[k]),
-                                    &plan->arena, &s->grid));
-    }
-    for (int m = 0; m < p->measures; m++) VES_TRY(instance_build(plan, l, m));
-    validity_needs(p, l);
-    for (int k = 0; k < p->shape.caps && p->shape.closed; k++) { /* the shape must not turn inside out */
-        int cap;
-        VES_TRY(cap_add(plan, l, k, &cap));
-        l->site[cap].needs[PROGRAM_JUDGE] |= VES_X | VES_XV;
-        l->site[cap].needs[PROGRAM_ALL] |= VES_X | VES_XV;
-        l->site[cap].wants |= VES_X | VES_XV;
-    }
-    for (int k = 0; k < l->sites; k++) {
-        double side = l->site[k].samples.side;
-        VES_TRY(site_finish(plan, &l->site[k], l->site[k].samples.site));
-        l->site[k].samples.side = side;
-    }
-    for (int m = 0; m < p->measures; m++) VES_TRY(instance_finish(plan, l, m));
-    return VES_OK;
 }
 
 /* --- sampling
@@ -390,18 +205,16 @@ static bool finite_points(const plan_site *s)
     return isfinite(sum);
 }
 
-ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient)
+/* What a gradient needs of a chart is prepared with it, but of a look, which moves, when it has come to rest.
+ */
+static ves_status site_fill(ves_plan *plan, plan_site *s, unsigned needs, bool gradient)
 {
-    if (!needs) return VES_OK;
-    if (!s->chart) {
-        curve_sample(plan, s, needs);
-        return VES_OK;
-    }
+    bool keep = s->varies && (gradient || s->looked);
     ves_chart_prepare(s->chart, &plan->bound, gradient);
     ves_status worst = VES_OK;
     for (int k = 0; k < s->tiles; k++) {
         ves_tile *tile = &s->tile[k];
-        ves_tile_planes *field = gradient && s->varies ? &s->kept[k] : plan->field;
+        ves_tile_planes *field = keep ? &s->kept[k] : plan->field;
         tile->fields = fields_for(needs);
         ves_chart_sample(s->chart, tile, field);
         if (plan->similarity != 1) ves_tile_scale(tile, plan->similarity, field);
@@ -415,9 +228,35 @@ ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gr
     return worst;
 }
 
+ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient)
+{
+    s->looked = false;
+    if (!needs || s->samples.site == VES_SITE_LOOK) return VES_OK;
+    if (s->chart) return site_fill(plan, s, needs, gradient);
+    curve_sample(plan, s, needs);
+    return VES_OK;
+}
+
+int ves_site_look(const ves_measure_input *input, int i, int k, const double u[3], const double v[3])
+{
+    const plan_instance *in = (const plan_instance *)input;
+    int index = input->first_look + i * in->looks + k;
+    plan_site *s = &in->plan->level[input->level].site[in->site[index]];
+    memcpy(s->grid.u, u, 3 * sizeof *u);
+    memcpy(s->grid.v, v, 3 * sizeof *v);
+    ves_chart_move(s->chart);
+    s->looked = true;
+    return site_fill(in->plan, s, s->wants, false) == VES_OK ? index : -1;
+}
+
 /* --- the transpose
  * -----------------------------------------------------------------------------------------------------------
  */
+
+static bool idle(const plan_site *s)
+{
+    return s->samples.site == VES_SITE_LOOK && !s->looked;
+}
 
 /* Three loops from one text. A plane of adjoints goes into a tile, times factor or on top of what is there;
  * it is left all zeros, ready for the next sweep. */
@@ -538,8 +377,9 @@ static double curve_scatter(ves_plan *plan, plan_site *s)
 
 double ves_site_scatter(ves_plan *plan, plan_site *s)
 {
-    if (!s->slopes || !s->varies) return 0;
+    if (!s->slopes || !s->varies || idle(s)) return 0;
     if (!s->chart) return curve_scatter(plan, s);
+    if (s->looked) ves_chart_prepare(s->chart, &plan->bound, true);
     ves_chart_clear(s->chart);
     double by_similarity = 0;
     bool scaled = plan->problem->scale;
@@ -555,5 +395,5 @@ double ves_site_scatter(ves_plan *plan, plan_site *s)
 
 void ves_site_gather(ves_plan *plan, plan_site *s)
 {
-    if (s->chart && s->varies) ves_chart_gather(s->chart, &plan->bound, plan->block_adjoint);
+    if (s->chart && s->varies && !idle(s)) ves_chart_gather(s->chart, &plan->bound, plan->block_adjoint);
 }

@@ -6,6 +6,7 @@
 
 typedef struct ves_patch_ops {
     ves_status (*chart)(ves_patch *patch, ves_chart *chart, ves_arena *arena);
+    void (*move)(ves_chart *chart);
     void (*bind)(ves_patch *patch, const ves_bound *bound);
     void (*prepare)(ves_chart *chart, const ves_bound *bound, bool gradient);
     void (*sample)(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field);

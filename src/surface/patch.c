@@ -37,6 +37,11 @@ ves_status ves_chart_create(ves_patch *patch, const ves_grid *grid, unsigned fie
     return VES_OK;
 }
 
+void ves_chart_move(ves_chart *chart)
+{
+    chart->patch->ops->move(chart);
+}
+
 void ves_patch_bind(ves_patch *patch, const ves_bound *bound)
 {
     if (patch->varies || !patch->binding) {

@@ -67,6 +67,9 @@ double ves_patch_tail(const ves_patch *patch); /* share of the bound data that t
 ves_status ves_chart_create(ves_patch *patch, const ves_grid *grid, unsigned fields, ves_arena *arena,
                             ves_chart **chart);
 
+/* The nodes of the grid, as many as before, have other u and v now: the tables of the chart are stale. */
+void ves_chart_move(ves_chart *chart);
+
 void ves_patch_bind(ves_patch *patch, const ves_bound *bound);
 /* gradient: prepare also what gather needs. */
 void ves_chart_prepare(ves_chart *chart, const ves_bound *bound, bool gradient);

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "curve/modes.h"
+
 typedef ves_lanes lanes;
 
 typedef struct pde {
@@ -77,6 +79,11 @@ static void pde_bind(ves_patch *patch, const ves_bound *bound)
     p->a_value = bound->number[p->a];
 }
 
+static void places_fill(pde_chart *c, const ves_grid *grid)
+{
+    for (int i = 0; i < c->nup; i++) c->u[i] = grid->u[i < grid->nu ? i : grid->nu - 1];
+}
+
 static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena *arena)
 {
     pde *p = patch->state;
@@ -104,7 +111,7 @@ static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena
     if (!c->u || !c->table || !c->table_a || !c->rest || !c->rest_a || !c->mode || !c->mode_adjoint ||
         !c->residual || !c->residual_adjoint || !c->wave || !c->room)
         return VES_MEMORY;
-    for (int i = 0; i < c->nup; i++) c->u[i] = grid->u[i < grid->nu ? i : grid->nu - 1];
+    places_fill(c, grid);
     for (int e = 0; e < 3; e++)
         for (int n = p->modes + 1; n <= p->band; n++)
             for (int j = 0; j < grid->nv; j++) {
@@ -113,6 +120,30 @@ static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena
             }
     chart->state = c;
     return ves_synthesis_create(grid, p->modes, arena, &c->synthesis);
+}
+
+static void pde_move(ves_chart *chart)
+{
+    const pde *p = chart->patch->state;
+    pde_chart *c = chart->state;
+    const ves_grid *grid = chart->grid;
+    int tail = p->band - p->modes, nv = grid->nv;
+    places_fill(c, grid);
+    ves_synthesis_move(&c->synthesis);
+    for (int j = 0; j < nv && tail; j++) {
+        const double step[2] = {cos(grid->v[j]), sin(grid->v[j])};
+        double z[2] = {cos(p->modes * grid->v[j]), sin(p->modes * grid->v[j])};
+        for (int k = 0; k < tail; k++) {
+            double n = p->modes + 1 + k, *w = c->wave + (size_t)(2 * k * nv + j);
+            int next = 2 * tail * nv; /* to the next derivative */
+            ves_turn(z, step);
+            w[0] = z[0], w[nv] = z[1];
+            w[next] = -n * z[1], w[next + nv] = n * z[0];
+            w[2 * next] = -n * n * z[0], w[2 * next + nv] = -n * n * z[1];
+        }
+    }
+    c->a_table = NAN;
+    c->binding = -1;
 }
 
 #define HOT static inline __attribute__((always_inline))
@@ -438,6 +469,7 @@ static double pde_tail(const ves_patch *patch)
 }
 
 static const ves_patch_ops PDE = {.chart = pde_chart_create,
+                                  .move = pde_move,
                                   .bind = pde_bind,
                                   .prepare = pde_prepare,
                                   .sample = pde_sample,

@@ -27,6 +27,11 @@ bool ves_sheet_stale(ves_chart *chart)
     return true;
 }
 
+void ves_sheet_move(ves_chart *chart)
+{
+    ((ves_sheet *)chart->state)->binding = -1;
+}
+
 void ves_sheet_clear(ves_chart *chart)
 {
     ves_sheet *s = chart->state;

@@ -15,6 +15,7 @@ typedef struct ves_sheet {
 
 ves_status ves_sheet_create(ves_chart *chart, size_t room, ves_arena *arena, ves_sheet **sheet);
 bool ves_sheet_stale(ves_chart *chart); /* true once for each binding */
+void ves_sheet_move(ves_chart *chart);  /* makes it so once more */
 void ves_sheet_clear(ves_chart *chart);
 void ves_sheet_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field);
 void ves_sheet_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_planes *adjoint);

@@ -84,6 +84,7 @@ static void point(const ves_patch *patch, const ves_bound *bound, int count, con
 }
 
 static const ves_patch_ops FORMULA = {.chart = chart_create,
+                                      .move = ves_sheet_move,
                                       .bind = ves_sheet_idle_bind,
                                       .prepare = prepare,
                                       .sample = ves_sheet_sample,

@@ -90,6 +90,23 @@ static void spline_row(const spline *s, double t, double range, int d, double *r
     row[next] += scale * w[1];
 }
 
+static void rows_fill(const grid_of_points *g, const ves_grid *grid, const tables *t)
+{
+    static const double around = 6.283185307179586;
+    for (int d = 0; d < 3; d++) {
+        for (int i = 0; i < grid->nu; i++) spline_row(&g->u, grid->u[i], 1, d, t->u[d] + i * g->rows);
+        for (int j = 0; j < grid->nv; j++)
+            spline_row(&g->v, grid->v[j] / around, around, d, t->v[d] + j * g->columns);
+    }
+}
+
+static void move(ves_chart *chart)
+{
+    const ves_sheet *s = chart->state;
+    rows_fill(chart->patch->state, chart->grid, s->tables);
+    ves_sheet_move(chart);
+}
+
 static ves_status chart_create(ves_patch *patch, ves_chart *chart, ves_arena *arena)
 {
     const grid_of_points *g = patch->state;
@@ -102,10 +119,8 @@ static ves_status chart_create(ves_patch *patch, ves_chart *chart, ves_arena *ar
         t->u[d] = ves_arena_doubles(arena, (size_t)(grid->nu * g->rows));
         t->v[d] = ves_arena_doubles(arena, (size_t)(grid->nv * g->columns));
         if (!t->u[d] || !t->v[d]) return VES_MEMORY;
-        for (int i = 0; i < grid->nu; i++) spline_row(&g->u, grid->u[i], 1, d, t->u[d] + i * g->rows);
-        for (int j = 0; j < grid->nv; j++)
-            spline_row(&g->v, grid->v[j] / 6.283185307179586, 6.283185307179586, d, t->v[d] + j * g->columns);
     }
+    rows_fill(g, grid, t);
     sheet->tables = t;
     return VES_OK;
 }
@@ -183,6 +198,7 @@ static void point(const ves_patch *patch, const ves_bound *bound, int count, con
 }
 
 static const ves_patch_ops POINTS = {.chart = chart_create,
+                                     .move = move,
                                      .bind = ves_sheet_idle_bind,
                                      .prepare = prepare,
                                      .sample = ves_sheet_sample,

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "curve/modes.h"
+
 typedef ves_lanes lanes;
 
 #define HOT static inline __attribute__((always_inline))
@@ -46,6 +48,23 @@ ves_status ves_synthesis_create(const ves_grid *grid, int modes, ves_arena *aren
     if (!s->table) return VES_MEMORY;
     fill(s);
     return VES_OK;
+}
+
+/* One sine and one cosine a row: looks between nodes come many to an evaluation. */
+void ves_synthesis_move(const ves_synthesis *s)
+{
+    for (int j = 0; j < s->rows; j++) {
+        const double step[2] = {cos(s->grid->v[j]), sin(s->grid->v[j])};
+        double z[2] = {1, 0}, *t[3];
+        for (int e = 0; e < 3; e++) t[e] = row_table(s, e, j);
+        for (int n = 1; n <= s->modes; n++) {
+            int c = (2 * n - 1) * FOUR, d = 2 * n * FOUR;
+            ves_turn(z, step);
+            t[0][c] = z[0], t[0][d] = z[1];
+            t[1][c] = -n * z[1], t[1][d] = n * z[0];
+            t[2][c] = -(double)n * n * z[0], t[2][d] = -(double)n * n * z[1];
+        }
+    }
 }
 
 /* Adds one coefficient of three coordinates, times its factors in `rows` rows. */

@@ -22,6 +22,9 @@ typedef struct ves_synthesis {
 
 ves_status ves_synthesis_create(const ves_grid *grid, int modes, ves_arena *arena, ves_synthesis *synthesis);
 
+/* After the grid's v have changed. */
+void ves_synthesis_move(const ves_synthesis *synthesis);
+
 /* Overwrites the fields that the tile names. */
 void ves_synthesis_eval(const ves_synthesis *synthesis, const double *mode, const ves_tile *tile,
                         ves_tile_planes *out);

@@ -21,6 +21,7 @@ const ves_measure ves_measure_depth = {
     .unit = "m",
     .degree = 1,
     .extreme = true,
+    .looks = VES_EXTREME_LOOKS,
     .surface = VES_EXTREME_SURFACE,
     .room = ves_extent_room,
     .eval = eval,

@@ -9,9 +9,9 @@ static const ves_key KEYS[] = {{.name = "along",
                                 .about = "direction, [0, 1, 0] unless given; any length"},
                                {.name = NULL}};
 
-/* max d . X - min d . X over the surface, d = along / |along|. Third order in the spacing of the nodes
- * (measure/extreme.h). VES_NO_NUMBER: along is zero. test  ellipsoid turned any way: 2 |M^T d|; tilted
- * cylinder: the rims; order 3; differences */
+/* max d . X - min d . X over the surface, d = along / |along| (measure/extreme.h). VES_NO_NUMBER: along is
+ * zero. test  ellipsoid turned any way: 2 |M^T d|; tilted cylinder and cone: the rims; without looks order 3;
+ * differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     ves_direction d;
@@ -34,6 +34,7 @@ const ves_measure ves_measure_extent = {.name = "extent",
                                         .unit = "m",
                                         .degree = 1,
                                         .extreme = true,
+                                        .looks = VES_EXTREME_LOOKS,
                                         .surface = VES_EXTREME_SURFACE,
                                         .keys = KEYS,
                                         .room = ves_extent_room,

@@ -16,9 +16,8 @@ static const ves_key KEYS[] = {
      .unit = "1",
      .min = 0,
      .max = HUGE_VAL,
-     .about =
-         "0: the largest over the nodes; p > 0: the mean of max(of, 0)^p over the area, to the power 1/p, "
-         "which is smooth for p >= 2"},
+     .about = "0: the largest; p > 0: the mean of max(of, 0)^p over the area, to the power 1/p, "
+              "which is smooth for p >= 2"},
     {.name = NULL}};
 
 /* The area weighs power means alone. */
@@ -53,19 +52,13 @@ static ves_power gather(const ves_measure_input *input, double p)
     return power;
 }
 
-/* The largest value of a formula over the nodes (of second order in their spacing), or its power mean
- * ( integral max(f, 0)^p dA / A )^(1/p), which is less, and 0 where f is nowhere positive. VES_NO_NUMBER
- * where the formula is no number. test  torus in closed form; power means on a cylinder; differences */
+/* The largest value of a formula over the surface, or its power mean ( integral max(f, 0)^p dA / A )^(1/p),
+ * which is less, and 0 where f is nowhere positive. VES_NO_NUMBER where the formula is no number. test  torus
+ * and cone in closed form; power means on a cylinder; differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     double p = ves_argument_number(input, SMOOTH), *place = place_of(input), *all = place + 2;
-    if (!(p > 0)) {
-        ves_pointwise_top top;
-        VES_TRY(ves_pointwise_largest(input, 1, &top));
-        place[0] = top.sample, place[1] = top.node;
-        *value = top.value;
-        return VES_OK;
-    }
+    if (!(p > 0)) return ves_pointwise_largest(input, 1, place, value);
     ves_pointwise f = ves_pointwise_init(input);
     for (int i = 0; i < input->samples; i++) {
         const ves_samples *s = input->sample[i];
@@ -115,6 +108,7 @@ const ves_measure ves_measure_max = {.name = "max",
                                      .unit = NULL,
                                      .degree = VES_NO_DEGREE,
                                      .extreme = true,
+                                     .looks = 1,
                                      .surface = VES_POINTWISE_SURFACE,
                                      .keys = KEYS,
                                      .needs = needs,

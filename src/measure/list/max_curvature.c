@@ -3,6 +3,7 @@
 #include "measure/argument.h"
 #include "measure/power.h"
 #include "measure/principal.h"
+#include "measure/summit.h"
 
 enum { SMOOTH };
 
@@ -12,18 +13,18 @@ static const ves_key KEYS[] = {
      .unit = "1",
      .min = 0,
      .max = HUGE_VAL,
-     .about =
-         "0: the largest over the nodes; p > 0: the mean of |k1|^p and |k2|^p over the area, to the power "
-         "1/p, which is smooth for p >= 2"},
+     .about = "0: the largest; p > 0: the mean of |k1|^p and |k2|^p over the area, to the power "
+              "1/p, which is smooth for p >= 2"},
     {.name = NULL}};
 
-static size_t room(const ves_measure_input *input)
+/* |k| of the larger one is |H| + s. */
+static double larger(const void *of, const ves_samples *s, int n)
 {
-    (void)input;
-    return 2;
+    (void)of;
+    return fabs(s->H[n]) + ves_principal_init(s->H[n], s->K[n]).s;
 }
 
-/* max |k| = max (|H| + s) over the nodes; room: sample and node of the largest. */
+/* Over the nodes: the scale of power means. */
 static double largest(const ves_measure_input *input)
 {
     double most = -1;
@@ -31,9 +32,8 @@ static double largest(const ves_measure_input *input)
         const ves_samples *s = input->sample[i];
         if (s->site != VES_SITE_SURFACE) continue;
         for (int n = 0; n < s->count; n++) {
-            double k = fabs(s->H[n]) + ves_principal_init(s->H[n], s->K[n]).s;
-            if (k <= most) continue;
-            most = k, input->room[0] = i, input->room[1] = n;
+            double k = larger(NULL, s, n);
+            if (!(k <= most)) most = k;
             if (isnan(k)) return k;
         }
     }
@@ -57,13 +57,15 @@ static ves_power gather(const ves_measure_input *input, double p, double most)
 }
 
 /* The largest principal curvature |k|, or its power mean ( integral (|k1|^p + |k2|^p) / 2 dA / A )^(1/p).
- * The exact maximum is over the nodes: of second order in their spacing. test  sphere 1/R for any p; torus
- * 1/r, and p = 2: sqrt(bending / 2A); ellipsoid: order 2; differences */
+ * test  sphere 1/R for any p; torus 1/r, and p = 2: sqrt(bending / 2A); ellipsoid and cone; without looks
+ * order 2; differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
-    double p = ves_argument_number(input, SMOOTH), most = largest(input);
+    double p = ves_argument_number(input, SMOOTH), most;
+    if (!(p > 0)) return ves_summit_find(input, larger, NULL, input->room, value);
+    most = largest(input);
     if (!(most >= 0)) return VES_NO_NUMBER;
-    *value = p > 0 ? gather(input, p, most).mean : most;
+    *value = gather(input, p, most).mean;
     return VES_OK;
 }
 
@@ -108,8 +110,9 @@ const ves_measure ves_measure_max_curvature = {.name = "max_curvature",
                                                .unit = "1/m",
                                                .degree = -1,
                                                .extreme = true,
+                                               .looks = 1,
                                                .surface = VES_AREA | VES_CURVATURE,
                                                .keys = KEYS,
-                                               .room = room,
+                                               .room = ves_summit_room,
                                                .eval = eval,
                                                .gradient = gradient};

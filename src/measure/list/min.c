@@ -1,4 +1,5 @@
 #include "measure/pointwise.h"
+#include "measure/summit.h"
 
 static const ves_key KEYS[] = {{.name = "of",
                                 .kind = VES_POINTWISE,
@@ -6,21 +7,19 @@ static const ves_key KEYS[] = {{.name = "of",
                                 .about = "formula of x, y, z, H, K, k1, k2, u, v"},
                                {.name = NULL}};
 
-/* room: the formula's scratch, then sample and node of the least. */
+/* room: the formula's scratch, then that of the summit of -f. */
 static size_t room(const ves_measure_input *input)
 {
-    return ves_pointwise_scratch(input) + 2;
+    return ves_pointwise_scratch(input) + ves_summit_room(input);
 }
 
-/* The least value of a formula over the nodes: of second order in their spacing. VES_NO_NUMBER where the
- * formula is no number. test  torus in closed form; differences */
+/* The least value of a formula over the surface. VES_NO_NUMBER where the formula is no number. test  torus in
+ * closed form; differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
-    double *place = input->room + ves_pointwise_scratch(input);
-    ves_pointwise_top top;
-    VES_TRY(ves_pointwise_largest(input, -1, &top));
-    place[0] = top.sample, place[1] = top.node;
-    *value = -top.value;
+    double top;
+    VES_TRY(ves_pointwise_largest(input, -1, input->room + ves_pointwise_scratch(input), &top));
+    *value = -top;
     return VES_OK;
 }
 
@@ -38,6 +37,7 @@ const ves_measure ves_measure_min = {.name = "min",
                                      .unit = NULL,
                                      .degree = VES_NO_DEGREE,
                                      .extreme = true,
+                                     .looks = 1,
                                      .surface = VES_X | VES_CURVATURE,
                                      .keys = KEYS,
                                      .needs = ves_pointwise_needs,
