@@ -6,90 +6,17 @@
 
 #include "app/shape.h"
 #include "base/text.h"
+#include "study/points.h"
 
-enum { FIELDS = 6, LINE = 256, NAMES = 64 };
+enum { FIELDS = 6, NAMES = 64 };
 
-typedef struct points {
-    int count, room;
-    double *u, *v; /* one block, v after u */
-} points;
-
-static bool keep(points *p, double u, double v)
-{
-    if (p->count == p->room) {
-        int room = p->room ? 2 * p->room : 1024;
-        double *pu = ves_memory_grow(p->u, sizeof *pu * (size_t)room);
-        if (pu) p->u = pu;
-        double *pv = ves_memory_grow(p->v, sizeof *pv * (size_t)room);
-        if (pv) p->v = pv;
-        if (!pu || !pv) return false;
-        p->room = room;
-    }
-    p->u[p->count] = u;
-    p->v[p->count++] = v;
-    return true;
-}
-
-static char *trimmed(char *text)
-{
-    size_t length = strlen(text);
-    while (length && strchr(" \t\r\n", text[length - 1])) text[--length] = 0;
-    return text + strspn(text, " \t");
-}
-
-/* "u, v": two numbers. */
-static bool pair(char *line, double *u, double *v)
-{
-    char *comma = strchr(line, ',');
-    if (!comma) return false;
-    *comma = 0;
-    return ves_text_number(trimmed(line), u) && ves_text_number(trimmed(comma + 1), v);
-}
-
-/* The one heading that says what the columns are: u,v in this order. */
-static bool is_heading(const char *line)
-{
-    static const char mark[] = "\xEF\xBB\xBF"; /* of UTF-8, which spreadsheets put first */
-    char word[4] = "";
-    if (!strncmp(line, mark, 3)) line += 3;
-    size_t count = 0;
-    for (; *line; line++)
-        if (!strchr(" \t\"", *line)) {
-            if (count == 3) return false;
-            word[count++] = *line;
-        }
-    return strlen(word) == 3 && strchr("uU", word[0]) && word[1] == ',' && strchr("vV", word[2]);
-}
-
-static int points_read(app *a, FILE *in, const char *name, points *p)
-{
-    char line[LINE], shown[LINE];
-    for (int number = 1; fgets(line, sizeof line, in); number++) {
-        double u, v;
-        char *text = trimmed(line);
-        memcpy(shown, text, strlen(text) + 1);
-        if (!*text) continue;
-        bool good = pair(text, &u, &v);
-        if (number == 1 && is_heading(shown)) continue;
-        if (!good)
-            return app_fail(a, VES_SYNTAX, "%s:%d: two numbers u,v are needed, found \"%s\"", name, number,
-                            shown);
-        if (!(u >= 0 && u <= 1))
-            return app_fail(a, VES_RANGE, "%s:%d: u = %g lies outside the patch (0 to 1)", name, number, u);
-        if (!keep(p, u, v)) return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
-    }
-    if (ferror(in)) return app_fail(a, VES_USAGE, "cannot read \"%s\": %s", name, strerror(errno));
-    if (!p->count) return app_fail(a, VES_SYNTAX, "\"%s\" has no points: one u,v a line is needed", name);
-    return APP_DONE;
-}
-
-static int points_open(app *a, points *p)
+static int points_open(app *a, ves_points *p)
 {
     const char *name = a->options.points;
-    if (!strcmp(name, "-")) return points_read(a, stdin, "stdin", p);
+    if (!strcmp(name, "-")) return app_code(ves_points_read(stdin, "stdin", p, a->diag));
     FILE *in = fopen(name, "rb");
     if (!in) return app_fail(a, VES_USAGE, "cannot open \"%s\": %s", name, strerror(errno));
-    int code = points_read(a, in, name, p);
+    int code = app_code(ves_points_read(in, name, p, a->diag));
     fclose(in);
     return code;
 }
@@ -117,7 +44,7 @@ static int patch_find(const app *a, const ves_problem *p)
     return !a->options.patch && p->patches == 1 ? 0 : -1;
 }
 
-static void values_print(const points *p, const double *value)
+static void values_print(const ves_points *p, const double *value)
 {
     printf("u,v,x,y,z,xu,yu,zu,xv,yv,zv,xuu,yuu,zuu,xuv,yuv,zuv,xvv,yvv,zvv\n");
     for (int k = 0; k < p->count; k++) {
@@ -129,15 +56,14 @@ static void values_print(const points *p, const double *value)
 
 static int values(app *a, ves_plan *plan, int patch)
 {
-    points p = {0};
+    ves_points p = {0};
     int code = points_open(a, &p);
     double *value = ves_memory_take(sizeof *value * (size_t)(3 * FIELDS) * (size_t)p.count);
     if (code == APP_DONE && (!value || ves_plan_points(plan, patch, p.count, p.u, p.v, value) != VES_OK))
         code = app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
     if (code == APP_DONE) values_print(&p, value);
     ves_memory_free(value);
-    ves_memory_free(p.u);
-    ves_memory_free(p.v);
+    ves_points_free(&p);
     return code;
 }
 
