@@ -1,24 +1,22 @@
-/* Fuzz target of the problem reader: whatever the bytes, it answers with a problem or with messages.
+/* Fuzz target of the readers: whatever the bytes, the answer is a problem or messages. Most inputs are
+ * problem files, with --set before them or not; some are formulas, lists of points, tables of measures
+ * (parts.h).
  *
  * By itself a mutating fuzzer that repeats to the byte: fuzz_problem [SECONDS [SEED]]; seeds are the shipped
  * and the broken problem files. With clang -fsanitize=fuzzer -DVESICA_LIBFUZZER the same target serves
  * libFuzzer. On a finding the sanitizer stops; the input is in VESICA_BUILD/fuzz_problem.input. */
 #include <dirent.h>
+#include <fcntl.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "base/random.h"
+#include "fuzz/parts.h"
 #include "problem/problem.h"
-
-static void require(bool holds, const char *what)
-{
-    if (holds) return;
-    fprintf(stderr, "fuzz: %s\n", what);
-    abort();
-}
 
 static void check_args(const ves_problem *p, const ves_args *args)
 {
@@ -83,22 +81,27 @@ static void read_once(const char *text, size_t length, const ves_read_options *o
     ves_diag_destroy(diag);
 }
 
-/* A first line "--set NAME=VALUE" is taken off and applied. */
+enum { OVERRIDES = 3, WIDTH = 256 };
+
+/* Lines "--set NAME=VALUE" before the file are taken off and applied, three at most. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char name[256], value[256];
+    char name[OVERRIDES][WIDTH], value[OVERRIDES][WIDTH];
     const char *text = (const char *)data;
-    ves_override override = {name, value};
-    ves_read_options options = {.override = &override};
-    size_t line = 0;
-    while (line < size && text[line] != '\n') line++;
-    if (size > 6 && !memcmp(text, "--set ", 6) && line < size && line < 250) {
-        snprintf(name, sizeof name, "%.*s", (int)(line - 6), text + 6);
-        char *equal = strchr(name, '=');
-        snprintf(value, sizeof value, "%s", equal ? equal + 1 : "");
+    ves_override override[OVERRIDES];
+    ves_read_options options = {.override = override};
+    if (fuzz_part(text, size)) return 0;
+    for (int k = 0; k < OVERRIDES && size > 6 && !memcmp(text, "--set ", 6); k++) {
+        size_t line = 0;
+        while (line < size && text[line] != '\n') line++;
+        if (line == size || line >= WIDTH) break;
+        snprintf(name[k], WIDTH, "%.*s", (int)(line - 6), text + 6);
+        char *equal = strchr(name[k], '=');
+        snprintf(value[k], WIDTH, "%s", equal ? equal + 1 : "");
         if (equal) *equal = 0;
-        options.overrides = 1;
+        override[k] = (ves_override){name[k], value[k]};
+        options.overrides = k + 1;
         text += line + 1;
         size -= line + 1;
     }
@@ -292,6 +295,35 @@ static void add_seeds(const char *folder, input *seed, int *count)
     closedir(dir);
 }
 
+/* Inputs of the other kinds: every third seed. */
+static void add_parts(input *seed, int *count)
+{
+    static const struct {
+        const char *text;
+        size_t length;
+    } part[] = {
+#define PART(text) {text, sizeof text - 1}
+        PART("--formula\n2 mm + a*sin(30 deg)^2"),
+        PART("--formula\nif(a < 2 m and not b > 1, min(a, 3 m, abs(b)), hypot(1, 2, rim.r))"),
+        PART("--formula\nkg/(m s^2)"),
+        PART("--formula\n-2^-0.5^u + mod(7, -3)*atan2(b, 1e-300) <= area"),
+        PART("--points\nu,v\n0.25, 1\n1,-2e3\n"),
+        PART("--points\n\xEF\xBB\xBFU,V\r\n0,6.28\r\n"),
+        PART("--"
+             "plugin\n\x48\x02\x0e\x80\x80\x00\x02\x01\x00\x06\x00\x06\x02\x08\x0e\x14\x09\x00\x06\x00\x06"
+             "\x02"),
+        PART("--plugin\n\x20\x01\x80\x07\x01\x0b\x00\x00\x00\x00\x00\x00\x0e"),
+#undef PART
+    };
+    int rounds = *count / 3 / (int)(sizeof part / sizeof *part);
+    for (int k = 0; k < rounds; k++)
+        for (size_t i = 0; i < sizeof part / sizeof *part && *count < SEEDS; i++) {
+            input *s = &seed[(*count)++];
+            s->text = malloc(LARGEST);
+            memcpy(s->text, part[i].text, s->length = part[i].length);
+        }
+}
+
 /* Folders are read in any order; the run must not depend on it. */
 static int by_text(const void *a, const void *b)
 {
@@ -372,12 +404,11 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void remember(const input *i)
+/* The file stays open: closing one that was cut short waits for the disk, and took most of the time. */
+static void remember(int file, const input *i)
 {
-    FILE *out = fopen(VESICA_BUILD "/fuzz_problem.input", "wb");
-    if (!out) return;
-    fwrite(i->text, 1, i->length, out);
-    fclose(out);
+    if (pwrite(file, i->text, i->length, 0) != (ssize_t)i->length || ftruncate(file, (off_t)i->length))
+        perror("fuzz: the input is not kept");
 }
 
 static int replay(const char *path)
@@ -402,23 +433,26 @@ int main(int argc, char **argv)
     add_seeds(VESICA_SOURCE "/tests/broken", seed, &seeds);
     require(seeds > 40, "no seeds found");
     qsort(seed, (size_t)seeds, sizeof *seed, by_text);
+    add_parts(seed, &seeds);
     long runs = 0;
     input i = {malloc(LARGEST), 0};
+    int file = open(VESICA_BUILD "/fuzz_problem.input", O_RDWR | O_CREAT | O_TRUNC, 0666);
+    require(file >= 0, "no place for the input");
     for (; now() - begin < seconds; runs++) {
         ves_random random = {.seed = number, .step = (uint64_t)runs};
         const input *start = &seed[runs < seeds ? (int)runs : ves_random_below(&random, seeds)];
         memcpy(i.text, start->text, i.length = start->length);
         int changes = runs < seeds ? 0 : 1 + ves_random_below(&random, 6);
         for (int k = 0; k < changes; k++) mutate(&i, seed, seeds, &random);
-        remember(&i);
+        remember(file, &i);
         double before = now();
         LLVMFuzzerTestOneInput((const uint8_t *)i.text, i.length);
         double took = now() - before;
         if (took > slowest) slowest = took;
         require(took < 20, "one input took 20 s");
     }
-    printf("fuzz: %ld inputs in %.0f s, none broke the reader; slowest %.3f s\n", runs, now() - begin,
-           slowest);
+    printf("fuzz: %ld inputs in %.0f s, none broke a reader; slowest %.3f s\n", runs, now() - begin, slowest);
+    close(file);
     remove(VESICA_BUILD "/fuzz_problem.input");
     for (int k = 0; k < seeds; k++) free(seed[k].text);
     free(i.text);
