@@ -224,6 +224,7 @@ Test(cli, eval_answers_at_the_start_and_where_it_is_set)
     for (int k = 0; k < 4; k++)
         cr_assert(ves_node_find(j.root, contract[k]) != NULL, "no \"%s\"", contract[k]);
     double V = 3.14159265358979324 * 0.49 * 1.3;
+    /* rounding of a sum over all nodes */
     cr_assert(fabs(number(&j, "objective", NULL) - V) < 1e-12 * V, "got %.17g, want %.17g",
               number(&j, "objective", NULL), V);
     cr_assert(number(&j, "variables", "r") == 0.7);
@@ -275,7 +276,8 @@ static int row_read(char **text, double *value, int most)
     return count;
 }
 
-/* The wall of the bottle: X = (r cos v, r sin v, h u), with rounding. */
+/* The wall of the bottle: X = (r cos v, r sin v, h u), with the rounding of a few operations on numbers
+ * below 2. */
 Test(cli, sample_gives_the_surface_exactly)
 {
     root_make();

@@ -25,7 +25,7 @@ Test(cli_plugin, a_plugin_is_a_measure_like_any_other)
     outcome o =
         vesica(NULL, "eval " PROBLEMS "bottle.yaml --set maximize=sphericity --plugin good.so --json");
     json j = json_of(o.out);
-    /* V = pi / 4, A = 1.5 pi */
+    /* V = pi / 4, A = 1.5 pi; rounding of a sum over all nodes */
     double V = 0.78539816339744831, A = 4.71238898038468986,
            want = cbrt(36 * 3.14159265358979324 * V * V) / A;
     cr_assert(fabs(number(&j, "objective", NULL) - want) < 1e-13, "got %.17g, want %.17g",

@@ -456,6 +456,7 @@ Test(formula_text, the_unit_that_a_text_uses)
         cr_assert(found == (list[k].unit != NULL), "%s in \"%s\": %s", list[k].dim, list[k].text, unit);
         if (!found) continue;
         cr_assert(!strcmp(unit, list[k].unit), "\"%s\": got %s, want %s", list[k].text, unit, list[k].unit);
+        /* products of a few factors: some ulp */
         cr_assert(fabs(factor - list[k].factor) <= 1e-15 * list[k].factor, "%s: %.17g", unit, factor);
     }
 }

@@ -214,7 +214,7 @@ Test(polish, a_saddle_is_left_both_ways)
     ves_search_result_destroy(r);
 }
 
-/* The saddle on a wall: there is only one side. */
+/* The saddle on a wall: there is only one side. (1e-12 here and above: the f_tolerance of the polish.) */
 Test(polish, a_saddle_left_to_one_side_is_told_so)
 {
     given g = {
@@ -279,6 +279,7 @@ Test(polish, a_saddle_on_a_constraint_is_left)
     ves_search_options o = only_polish("slsqp");
     ves_search_result *r;
     cr_assert(eq(int, run(&top, &o, NULL, &r), VES_OK));
+    /* steps end at 1e-9 of the box, and the value follows the violation to first order; 2e-13 was seen */
     cr_expect(fabs(r->value + 1) < 1e-9 && r->violation < 1e-9, "value %.12g, violation %g", r->value,
               r->violation);
     cr_expect(r->optima == 2 && noted(r, "negative curvature"), "%d optima", r->optima);
@@ -313,6 +314,7 @@ Test(polish, a_minimum_on_a_wall_is_no_saddle)
     ves_search_options o = only_polish("slsqp");
     ves_search_result *r;
     cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    /* on the wall itself; in y of second order in steps of 1e-9 */
     cr_expect(fabs(r->value + 1.7 * 1.7) < 1e-10, "value %.12g", r->value);
     cr_expect(eq(int, r->notes, 0));
     ves_search_result_destroy(r);
@@ -345,6 +347,7 @@ Test(polish, failed_candidates_do_not_end_a_descent)
         ves_search_options o = only_polish(algorithm[k]);
         ves_search_result *r;
         cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        /* of second order in x: 1e-5 of the box at least for any of them; 5e-18 was seen */
         cr_expect(r->value < 1e-10 && isfinite(r->value), "%s: value %g, %ld failed (%s)", algorithm[k],
                   r->value, r->failed, r->stop);
         ves_search_result_destroy(r);
@@ -379,7 +382,8 @@ Test(polish, a_descent_that_ends_beside_a_failure_has_not_converged)
             ves_search_options o = only_polish(by[k]);
             ves_search_result *r;
             cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
-            cr_expect(r->any && r->x[0] >= wall && r->x[0] < wall + 1e-4, "%s: x %g, wall %g", by[k], r->x[0],
+            /* not the minimum, but beside the wall: 1e-9 was seen */
+            cr_expect(r->any && r->x[0] >= wall && r->x[0] < wall + 1e-6, "%s: x %g, wall %g", by[k], r->x[0],
                       wall);
             cr_expect(strstr(r->stop, "cannot be measured") && !strstr(r->stop, "converged"), "%s at %g: %s",
                       by[k], wall, r->stop);
@@ -417,6 +421,7 @@ Test(polish, a_descent_that_fails_begins_again_at_its_own_best)
         ves_search_options o = only_polish("slsqp");
         ves_search_result *r;
         cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        /* far below the plateau; 1e-22 was seen */
         cr_expect(r->value < 1e-10, "%ld failures: value %g after %ld (%s)", r->failed, r->value,
                   r->evaluations, r->stop);
         ves_search_result_destroy(r);

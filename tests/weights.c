@@ -307,6 +307,7 @@ Test(weights, mode_zero_is_polynomial)
     places(u);
     ves_weights_mode(&LAYOUT[0], 0, PLACES, u, w, NULL, room);
     for (int i = 0; i < PLACES; i++) {
+        /* two ulp of 1 here, some operations below */
         cr_assert(fabs(w[i] - (1 - u[i])) < 4e-16 && fabs(w[PLACES + i] - u[i]) < 4e-16);
     }
     ves_weights_mode(&LAYOUT[3], 0, PLACES, u, w, NULL, room);
