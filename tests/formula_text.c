@@ -141,6 +141,8 @@ Test(formula_text, syntax_errors_point_at_the_place_and_help)
         {"0x10", VES_SYNTAX, 0, 4, "hexadecimal numbers are not read; write a decimal number"},
         {"2 + 0xff", VES_SYNTAX, 4, 4, "hexadecimal numbers are not read; write a decimal number"},
         {"1_000", VES_SYNTAX, 0, 5, "digits are not grouped; write 1000, not 1_000"},
+        {"0.1_000", VES_SYNTAX, 0, 7, "digits are not grouped; write 1000, not 1_000"},
+        {".1_000", VES_SYNTAX, 0, 6, "digits are not grouped; write 1000, not 1_000"},
         {"1.2.3", VES_SYNTAX, 0, 4, "a number has one decimal point"},
         {"1e999", VES_SYNTAX, 0, 5, "this number is too large: numbers end at 1.8e308"},
         {"2a", VES_SYNTAX, 1, 1, "an operator is missing before \"a\": write 2*a"},
@@ -458,5 +460,17 @@ Test(formula_text, the_unit_that_a_text_uses)
         cr_assert(!strcmp(unit, list[k].unit), "\"%s\": got %s, want %s", list[k].text, unit, list[k].unit);
         /* products of a few factors: some ulp */
         cr_assert(fabs(factor - list[k].factor) <= 1e-15 * list[k].factor, "%s: %.17g", unit, factor);
+    }
+}
+
+/* A token that cannot be read is stepped over: splitting ends. */
+Test(formula_text, wrong_tokens_do_not_stop_a_split)
+{
+    static const char *const text[] = {"0.1_000 <= a", ".1_0 <= a", "0x1f <= a", "1.2.3 <= a", "@ <= a"};
+    for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
+        char operator[3];
+        int left, right;
+        cr_assert(ves_formula_split(text[k], operator, & left, &right) == VES_OK, "%s", text[k]);
+        cr_assert(!strcmp(operator, "<=") && !strcmp(text[k] + right, "a"), "%s", text[k]);
     }
 }

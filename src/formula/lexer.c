@@ -100,7 +100,7 @@ static void read_number(ves_lexer *lexer)
         bad(lexer, lexer->begin + name_end(text, 0),
             "hexadecimal numbers are not read; write a decimal number");
     } else if (text[length] == '_' && digit(text[length + 1])) {
-        bad(lexer, lexer->begin + name_end(text, 0), "digits are not grouped; write 1000, not 1_000");
+        bad(lexer, lexer->begin + name_end(text, length), "digits are not grouped; write 1000, not 1_000");
     } else if (text[length] == '.') {
         bad(lexer, lexer->begin + length + 1, "a number has one decimal point");
     } else if (length >= NUMBER) {
