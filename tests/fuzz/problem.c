@@ -446,10 +446,11 @@ int main(int argc, char **argv)
         for (int k = 0; k < changes; k++) mutate(&i, seed, seeds, &random);
         remember(file, &i);
         double before = now();
+        alarm(20); /* one that never ends is a finding: its input stays in the file */
         LLVMFuzzerTestOneInput((const uint8_t *)i.text, i.length);
         double took = now() - before;
         if (took > slowest) slowest = took;
-        require(took < 20, "one input took 20 s");
+        alarm(0);
     }
     printf("fuzz: %ld inputs in %.0f s, none broke a reader; slowest %.3f s\n", runs, now() - begin, slowest);
     close(file);
