@@ -73,6 +73,9 @@ Test(cli_faults, what_failed_a_check_stands_in_the_result)
               o.out);
     json_done(&j);
     expect(o, 1, NULL, "crosses itself", "run");
+    char *log = slurp("runs/crossed-0001/log.txt"), *once = strstr(log, "the surface crosses itself");
+    cr_assert(once && !strstr(once + 1, "the surface crosses itself"), "said once: %s", log);
+    free(log);
     root_remove();
 }
 

@@ -296,6 +296,19 @@ Test(study, a_problem_without_variables_is_measured_once)
     finish(&t);
 }
 
+Test(study, what_is_wrong_with_a_design_is_a_note)
+{
+    trial t = run_with(TUBE "expect: [area > 0]\n", &(ves_run_options){0}, NULL);
+    cr_assert(t.run->feasible && ves_run_notes(t.run) == 0);
+    finish(&t);
+    t = run_with(TUBE "quadrature: {u: 8, v: 8}\nmeasures: {m: {max: {of: log(z - 9)}}}\nexpect: [m > 0]\n",
+                 &(ves_run_options){0}, NULL);
+    cr_assert(t.run && ves_run_notes(t.run) == 1);
+    cr_assert(eq(str, (char *)ves_run_note(t.run, 0),
+                 "the start design cannot be measured: a measure is not a finite number"));
+    finish(&t);
+}
+
 Test(study, a_test_run_has_its_own_budget_and_checks)
 {
     static const char text[] = BOTTLE "expect: [evaluations < 0]\ntest: {evaluations: 300, expect: "

@@ -65,6 +65,17 @@ static void line(FILE *out, const char *label, const char *text)
     put(out, "\n");
 }
 
+/* Was the sentence a warning too? */
+static bool is_said(const ves_diag *diag, const char *sentence)
+{
+    char text[MESSAGE];
+    for (int i = 0; i < ves_diag_count(diag); i++) {
+        ves_diag_text(diag, i, text, sizeof text);
+        if (strstr(text, sentence)) return true;
+    }
+    return false;
+}
+
 static void fill_log(const keeper *k, FILE *out)
 {
     const ves_run *run = k->run;
@@ -79,7 +90,8 @@ static void fill_log(const keeper *k, FILE *out)
         ves_diag_text(k->diag, i, text, sizeof text);
         line(out, text, "");
     }
-    for (int i = 0; i < run->notes; i++) line(out, "note: ", run->note[i]);
+    for (int i = 0; i < run->notes; i++)
+        if (!is_said(k->diag, run->note[i])) line(out, "note: ", run->note[i]);
     line(out, "stopped: ", run->stop);
 }
 
