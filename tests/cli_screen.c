@@ -7,11 +7,11 @@
 static const char tilted[] =
     "vesica: 1\n"
     "parameters: {lean: 2 deg, H: 10 cm}\n"
-    "variables: {r: [20 mm, 31.7 mm, 80 mm], tilt: [-20 deg, 3 deg, 20 deg]}\n"
+    "variables: {r: [20 mm, 31.7 mm, 80 mm], tilt: [-20 deg, 3 deg, 20 deg], fill: [10 %, 50 %, 90 %]}\n"
     "curves:\n"
     "  low: {circle: {radius: r}}\n"
     "  high: {circle: {radius: 0.05 m}, apply: [{rotate: [tilt + lean, 0, 0]}, {translate: [0 m, 0 m, H]}]}\n"
-    "patches: {wall: {operator: {power: 1, a: 1}, conditions: [{u: 0, position: low}, {u: 1, position: "
+    "patches: {wall: {operator: {power: 1, a: 2*fill}, conditions: [{u: 0, position: low}, {u: 1, position: "
     "high}]}}\n"
     "measures: {up: {extent: {along: [0, 0, 1]}}, out: {extent: {along: [1, 0, 0]}}}\n"
     "minimize: area\n"
@@ -35,9 +35,10 @@ Test(cli_screen, numbers_are_in_the_units_of_the_file)
     write_file("tilted.yaml", tilted);
     outcome o = vesica(NULL, "check tilted.yaml");
     cr_assert(eq(int, o.code, 0), "%s", o.err);
-    has_lines(o.out, (const char *const[]){"r 31.7 [20, 80] mm\n", "tilt 3 [-20, 20] deg\n", "cm^2\n",
-                                           " 12 cm ok\n", " 0.03 m ok\n", "tilt <= 10 deg 3 10 deg ok\n",
-                                           "\n up 10.43578 cm\n", "\n out 0.1 m\n", NULL});
+    has_lines(o.out,
+              (const char *const[]){"r 31.7 [20, 80] mm\n", "tilt 3 [-20, 20] deg\n", "fill 50 [10, 90] %\n",
+                                    "cm^2\n", " 12 cm ok\n", " 0.03 m ok\n", "tilt <= 10 deg 3 10 deg ok\n",
+                                    "\n up 10.43578 cm\n", "\n out 0.1 m\n", NULL});
     done(&o);
     o = vesica(NULL, "run tilted.yaml --evaluations 1500 --json");
     cr_assert(eq(int, o.code, 0), "%s", o.err);

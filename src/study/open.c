@@ -88,6 +88,8 @@ static const char *with_unit(const ves_node *number, const ves_variable *v, ves_
     char unit[48];
     ves_dim_text(v->dim, unit);
     if (!strcmp(v->shown.unit, "deg")) return ves_arena_format(arena, "%s rad", number->text);
+    if (!strcmp(v->shown.unit, "%"))
+        return ves_arena_format(arena, "(%s)", number->text); /* a formula needs none */
     if (v->dim.any || !strcmp(unit, "1")) return number->text;
     return ves_arena_format(arena, "%s %s", number->text, unit);
 }
