@@ -230,6 +230,30 @@ Test(extreme, sheets_of_points_and_their_edges)
     bed_clear(&b);
 }
 
+/* The curvature of a cone grows like 1 / u towards its tip: no grid has the largest. That of a dome is found.
+ */
+Test(extreme, what_grows_without_bound_towards_a_pole_fails_its_proof)
+{
+    static const char *const text[2] = {
+        "vesica: 1\nvariables: {r: [0.1, 1, 5]}\n"
+        "curves: {o: {point: [0, 0, 1]}, p: {circle: {radius: r}}}\n"
+        "patches: {w: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: o}, {u: 1, position: p}]}}\n"
+        "minimize: max_curvature\n",
+        "vesica: 1\nvariables: {r: [0.1, 1, 5]}\n"
+        "patches: {w: {surface: {formula: [r*u*cos(v), r*u*sin(v), -0.7*u^2]}}}\n"
+        "minimize: max_curvature\n"};
+    for (int k = 0; k < 2; k++) {
+        bed b = bed_make(text[k], 16, 32);
+        double r = 1.37, constraint[1];
+        ves_verdict verdict = {.constraint = constraint};
+        ves_ask ask = {.x = &r, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE | VES_WANT_PROOF};
+        cr_assert_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_OK);
+        cr_expect_eq(verdict.status, k ? VES_OK : VES_COARSE, "%s", ves_status_text(verdict.status));
+        if (k) near(verdict.value, 1.4 / (r * r), 1e-5, "at the top: from 1e-3 beside it");
+        bed_clear(&b);
+    }
+}
+
 /* --- two hills --- */
 
 /* max x^2 + q x on the unit circle is 1 + |q|, at x = 1 or x = -1: the value goes through q = 0 without a

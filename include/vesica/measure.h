@@ -88,7 +88,8 @@ typedef struct ves_measure_input {
      * Fills look number k of surface number i at the points u[0..2] x v[0..2] (node = 3 j + i; 0 <= u <= 1,
      * 0 <= v <= 2 pi; they may coincide) and returns the index of its sample and of its adjoint; -1: at one
      * of them the surface has no number, or no tangent plane for what needs one. What a look was filled with
-     * last in eval is what gradient finds. It costs as much as some ten nodes for each Fourier mode. */
+     * last in eval is what gradient finds. It costs a quarter of what 16 x 32 nodes
+     * of a patch cost. */
     int (*look)(const struct ves_measure_input *input, int i, int k, const double u[3], const double v[3]);
     int first_look; /* index of the first sample of looks */
 } ves_measure_input;

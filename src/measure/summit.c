@@ -6,8 +6,9 @@
 
 static const double AROUND = 6.283185307179586;
 
-/* Where a surface has no tangent plane at its end, a pole, one stays this far inside. */
-static const double INSIDE = 1e-3;
+/* Where a surface has no tangent plane at its end, a pole, one stays this far inside: on the finer grid half
+ * as far, so that what grows without bound towards a pole differs there, and fails its proof. */
+static const double INSIDE[2] = {1e-3, 0.5e-3};
 
 /* A stencil of 3 x 3 points shrinks from step to step, from a cell to the 512th part of one. What then is
  * left of the way to the summit is of the square of that size, and what is left of the height of its fourth
@@ -78,7 +79,7 @@ static bool retreat(climb *c, const double node[2][3])
     bool touched = false;
     for (int end = 0; end < 2; end++)
         if (c->inside[end] == 0 && (end ? node[0][2] >= 1 : node[0][0] <= 0))
-            c->inside[end] = INSIDE, touched = true;
+            c->inside[end] = INSIDE[c->input->level], touched = true;
     return touched;
 }
 
