@@ -120,8 +120,10 @@ static void constraints(const ves_problem *problem, const ves_design *design, FI
     fputc('\n', out);
 }
 
-static const char *limit(const ves_variable *v, double x)
+/* What is to be said of a variable at x. */
+static const char *remark(const ves_variable *v, double x, bool idle)
 {
+    if (idle) return "does nothing: no measure that is judged depends on it";
     double near = AT_LIMIT * (v->max - v->min);
     if (x <= v->min + near) return "at its lower limit: the optimum may lie outside";
     if (x >= v->max - near) return "at its upper limit: the optimum may lie outside";
@@ -132,7 +134,7 @@ void app_screen_variables(const ves_run *run, FILE *out)
 {
     const ves_problem *p = run->problem;
     bool best = run->searched;
-    app_table t = {.align = best ? "lrrll" : "lrl"};
+    app_table t = {.align = best ? "lrrll" : "lrll"};
     char low[32], high[32];
     if (!p->variables) return;
     app_table_cell(&t, "variable");
@@ -148,7 +150,8 @@ void app_screen_variables(const ves_run *run, FILE *out)
         if (best) app_table_cell(&t, "%s", in_range(run->best.x[k], v, low));
         app_table_cell(&t, "[%s, %s]%s%s", app_screen_number(v->min / scale, low),
                        app_screen_number(v->max / scale, high), *v->shown.unit ? " " : "", v->shown.unit);
-        if (best) app_table_cell(&t, "%s", limit(v, run->best.x[k]));
+        bool idle = run->idle && run->idle[k];
+        app_table_cell(&t, "%s", best ? remark(v, run->best.x[k], idle) : idle ? remark(v, 0, true) : "");
     }
     app_table_print(&t, out);
     fputc('\n', out);
@@ -203,7 +206,8 @@ static void differences(const ves_run *run, int index, char *text, size_t size)
         for (int k = 0; k < p->variables; k++) {
             const ves_variable *v = &p->variable[k];
             double apart = fabs(x[k] - best[k]) / (v->max - v->min);
-            if (apart < most && apart > next) next = apart, which = k;
+            bool idle = run->idle && run->idle[k];
+            if (!idle && apart < most && apart > next) next = apart, which = k;
         }
         if (!shown) largest = next;
         if (which < 0 || next < APART * largest) return;

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "study/folder.h"
+#include "study/idle.h"
 #include "study/keep.h"
 #include "study/trace.h"
 
@@ -192,6 +193,25 @@ static ves_status start_measure(study *s)
              "%d x %d nodes a patch still change a measure of the start design by %.1e of its size",
              run->quadrature[0], run->quadrature[1], run->change);
     return warn(s, VES_COARSE, text);
+}
+
+/* Says which variables do nothing. */
+static ves_status idle_find(study *s)
+{
+    const ves_problem *p = s->problem;
+    size_t n = (size_t)p->variables;
+    bool *idle = ves_arena_take(&s->run->arena, n, sizeof *idle);
+    if (!idle) return complain(s->diag, VES_MEMORY);
+    s->run->idle = idle;
+    if (!ves_study_idle(s->plan[0], p, &s->run->arena, idle)) memset(idle, 0, n * sizeof *idle);
+    char *text = NULL;
+    for (int k = 0; k < p->variables; k++) {
+        if (!idle[k]) continue;
+        text = ves_arena_format(&s->run->arena, "%s%s%s", text ? text : "nothing that is judged depends on ",
+                                text ? ", " : "", p->variable[k].name);
+        if (!text) return complain(s->diag, VES_MEMORY);
+    }
+    return text ? keep_note(s, text) : VES_OK;
 }
 
 /* --- the folder: a disk that cannot be written does not stop the search --- */
@@ -448,6 +468,7 @@ static ves_status work(study *s)
     ves_run *run = s->run;
     VES_TRY(plans_make(s));
     VES_TRY(start_measure(s));
+    if (run->searched || s->options->prove) VES_TRY(idle_find(s));
     folder_begin(s);
     if (s->files != VES_OK && s->options->out) return s->files; /* told before the search has cost anything */
     if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);

@@ -48,6 +48,7 @@ struct ves_run {
     int jobs;
     int quadrature[2];
     double change;                 /* relative, that the choice of the quadrature left; NAN: it was given */
+    const bool *idle;              /* [variables] nothing that is judged depends on it (idle.h) */
     bool any;                      /* some design could be measured: best holds */
     bool feasible;                 /* ... and proved */
     ves_status proof;              /* of a design measured once: why it did not pass its checks, or VES_OK */

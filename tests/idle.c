@@ -1,0 +1,80 @@
+/* Variables that do nothing are found, and only they. */
+#include <criterion/criterion.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "problem/problem.h"
+#include "study/idle.h"
+#include "study/run.h"
+
+static const char RINGS[] =
+    "vesica: 1\n"
+    "variables: {Dx: [0.1, 1, 3], Dy: [0.1, 1, 3], lean: [-1, 0, 1], side: [-1, 0, 1], spare: [0.5, 1, 2]}\n"
+    "curves:\n"
+    "  p: {circle: {radius: 1, axis: [0, 1, 0]}}\n"
+    "  q: {circle: {radius: 1, axis: [0, 1, 0]}, apply: [{dilate: [Dx, Dy, 1]}, {rotate: [lean, 0, 0]}, "
+    "{translate: [side, 2, 0]}]}\n"
+    "  unused: {circle: {radius: spare}}\n"
+    "patches: {wall: {operator: {power: 1, a: 1}, conditions: [{u: 0, position: p}, {u: 1, position: q}]}}\n";
+
+/* Names of what was found, in the order of the file; NULL: it could not be told. */
+static void expect_idle(const char *judged, const char *names)
+{
+    char text[2000], found[200] = "";
+    snprintf(text, sizeof text, "%s%s", RINGS, judged);
+    ves_diag *diag = ves_diag_create();
+    ves_problem *p;
+    ves_plan *plan;
+    ves_arena arena = {0};
+    const int quadrature[2] = {8, 16};
+    bool idle[8];
+    cr_assert_eq(ves_problem_read_text("rings", text, strlen(text), NULL, &p, diag), VES_OK, "%s", judged);
+    cr_assert_eq(ves_study_plan(p, quadrature, &plan, diag), VES_OK);
+    bool told = ves_study_idle(plan, p, &arena, idle);
+    for (int k = 0; told && k < p->variables; k++)
+        if (idle[k]) strcat(strcat(found, p->variable[k].name), " ");
+    cr_expect(told == (names != NULL), "%s", judged);
+    cr_expect_str_eq(found, names ? names : "", "%s", judged);
+    ves_arena_destroy(&arena);
+    ves_plan_destroy(plan);
+    ves_problem_destroy(p);
+    ves_diag_destroy(diag);
+}
+
+/* The dilation of a ring along its own axis, and the radius of a ring that no patch ends on. At this start
+ * the slopes along lean and side are 0 too, by symmetry: they are not idle. */
+Test(idle, a_ring_along_its_own_axis)
+{
+    expect_idle("minimize: area\n", "Dy spare ");
+}
+
+Test(idle, what_a_constraint_reads_is_not_idle)
+{
+    expect_idle("minimize: area\nconstraints: [spare <= 1]\n", "Dy ");
+    expect_idle("minimize: (Dx - 2)^2 + Dy^2\n", "lean side spare ");
+}
+
+/* A shape that nothing can measure tells nothing. */
+Test(idle, it_is_not_told_where_nothing_can_be_measured)
+{
+    expect_idle("minimize: log(0 - area)\n", NULL);
+}
+
+Test(idle, the_result_says_so)
+{
+    char text[2000];
+    snprintf(text, sizeof text, "%sminimize: area\n", RINGS);
+    ves_diag *diag = ves_diag_create();
+    ves_problem *p;
+    ves_run *run;
+    cr_assert_eq(ves_problem_read_text("rings", text, strlen(text), NULL, &p, diag), VES_OK);
+    cr_assert_eq(ves_run_create(p, &(ves_run_options){.evaluations = 200, .jobs = 1}, NULL, &run, diag),
+                 VES_OK);
+    bool said = false;
+    for (int k = 0; k < run->notes; k++)
+        said = said || !strcmp(run->note[k], "nothing that is judged depends on Dy, spare");
+    cr_assert(said && run->idle[1] && run->idle[4] && !run->idle[0]);
+    ves_run_destroy(run);
+    ves_problem_destroy(p);
+    ves_diag_destroy(diag);
+}
