@@ -11,7 +11,7 @@
 static ves_mesh mesh_of(ves_figure *figure)
 {
     ves_mesh mesh;
-    cr_assert(eq(int, ves_figure_mesh(figure, &mesh, NULL, NULL), VES_OK));
+    cr_assert(eq(int, ves_figure_mesh(figure, true, &mesh), VES_OK));
     return mesh;
 }
 
@@ -188,18 +188,23 @@ Test(bridge, broken_meshes_are_refused_with_the_place)
                   hole[12] = {0, 0, 0, NAN, 0, 0, 0, 1, 0, 0, 0, 1};
     static int outside[] = {0, 1, 4}, twice[] = {0, 1, 1}, round[] = {0, 1, 2, 0, 1, 3}, lonely[] = {0, 1, 2};
     static int three[] = {0, 1, 2, 1, 0, 3, 0, 1, 3}, good[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+#define MESH(n, xyz, list)                                                                                   \
+    {                                                                                                        \
+        .vertices = 4, .triangles = n, .point = xyz, .corner = list                                          \
+    }
     const struct {
         ves_mesh mesh;
         const char *want;
     } cases[] = {
-        {{4, 0, cube, NULL}, "no triangle"},
-        {{4, 1, cube, outside}, "triangle 0 has the corner 4, outside 0 .. 3"},
-        {{4, 1, cube, twice}, "triangle 0 (0, 1, 1) has a corner twice"},
-        {{4, 2, cube, round}, "triangle 1 (0, 1, 3) does not fit"},
-        {{4, 3, cube, three}, "triangle 2 (0, 1, 3) does not fit"},
-        {{4, 1, cube, lonely}, "vertex 3 belongs to no triangle"},
-        {{4, 4, hole, good}, "vertex 1 is not finite"},
+        {MESH(0, cube, NULL), "no triangle"},
+        {MESH(1, cube, outside), "triangle 0 has the corner 4, outside 0 .. 3"},
+        {MESH(1, cube, twice), "triangle 0 (0, 1, 1) has a corner twice"},
+        {MESH(2, cube, round), "triangle 1 (0, 1, 3) does not fit"},
+        {MESH(3, cube, three), "triangle 2 (0, 1, 3) does not fit"},
+        {MESH(1, cube, lonely), "vertex 3 belongs to no triangle"},
+        {MESH(4, hole, good), "vertex 1 is not finite"},
     };
+#undef MESH
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char message[VES_BRIDGE_TEXT] = "";
         bool crosses;
@@ -210,7 +215,7 @@ Test(bridge, broken_meshes_are_refused_with_the_place)
         cr_assert(eq(int, ves_bridge_crosses(&cases[k].mesh, &crosses, message), VES_FAULT));
         cr_assert(eq(int, ves_bridge_write(&cases[k].mesh, VESICA_BUILD "/never.off", message), VES_FAULT));
     }
-    ves_mesh whole = {4, 4, cube, good};
+    ves_mesh whole = {.vertices = 4, .triangles = 4, .point = cube, .corner = good};
     ves_mesh_facts f;
     char message[VES_BRIDGE_TEXT];
     cr_assert(eq(int, ves_bridge_facts(&whole, true, &f, message), VES_OK), "%s", message);
@@ -223,7 +228,7 @@ Test(bridge, triangles_without_area_are_tolerated_and_told)
     /* the tetrahedron above with a vertex in the middle of an edge, joined by a flat triangle */
     static double point[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.5, 0, 0};
     static int corner[] = {0, 2, 1, 0, 1, 4, 0, 4, 3, 4, 1, 3, 1, 2, 3, 2, 0, 3};
-    ves_mesh mesh = {5, 6, point, corner};
+    ves_mesh mesh = {.vertices = 5, .triangles = 6, .point = point, .corner = corner};
     char message[VES_BRIDGE_TEXT];
     ves_mesh_facts f;
     bool crosses;
@@ -250,7 +255,7 @@ Test(bridge, seams_that_do_not_fit_are_refused)
         p->pole[1] = true, p->edge[0] = 5;
         if (k == 1) p->pole[0] = true;
         if (k == 2) p->rows = 4;
-        cr_assert(eq(int, ves_figure_mesh(&figure, &mesh, NULL, NULL), VES_FAULT), "case %d", k);
+        cr_assert(eq(int, ves_figure_mesh(&figure, true, &mesh), VES_FAULT), "case %d", k);
         shape_end(&figure);
     }
 }
@@ -259,18 +264,19 @@ Test(bridge, vertices_know_where_they_came_from)
 {
     ves_figure figure;
     ves_mesh mesh;
-    int *patch, *node, middles = 0;
+    int middles = 0;
     shape_pipe(&figure, 0.7, 1.3, true, 6, 18);
-    cr_assert(eq(int, ves_figure_mesh(&figure, &mesh, &patch, &node), VES_OK));
+    cr_assert(eq(int, ves_figure_mesh(&figure, true, &mesh), VES_OK));
     for (int v = 0; v < mesh.vertices; v++) {
-        if (patch[v] < 0) {
+        if (mesh.patch[v] < 0) {
             middles++;
             /* the mean of a ring of 18 points: rounding, 5e-17 was seen */
-            cr_assert(node[v] == -1 && hypot(mesh.point[3 * v], mesh.point[3 * v + 1]) < 1e-15,
-                      "on the axis");
+            cr_assert(hypot(mesh.point[3 * v], mesh.point[3 * v + 1]) < 1e-15, "on the axis");
             continue;
         }
-        for (int c = 0; c < 3; c++) cr_assert(mesh.point[3 * v + c] == figure.patch[patch[v]].X[c][node[v]]);
+        const ves_figure_patch *p = &figure.patch[mesh.patch[v]];
+        int i = (int)lround(mesh.u[v] * p->nu), j = (int)lround(mesh.v[v] * p->nv / (2 * PI));
+        for (int c = 0; c < 3; c++) cr_assert(mesh.point[3 * v + c] == p->X[c][i * p->columns + j]);
     }
     cr_assert(eq(int, middles, 2));
     shape_end(&figure);
@@ -310,7 +316,7 @@ Test(bridge, figures_are_destroyed_whole)
     ves_figure *figure = ves_memory_take(sizeof *figure);
     ves_mesh mesh;
     shape_sphere(figure, 1, 4, 8);
-    cr_assert(eq(int, ves_figure_mesh(figure, &mesh, NULL, NULL), VES_OK));
+    cr_assert(eq(int, ves_figure_mesh(figure, true, &mesh), VES_OK));
     ves_figure_destroy(figure); /* a leak shows under the sanitizer */
     ves_figure_destroy(NULL);
 }

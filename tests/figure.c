@@ -72,7 +72,7 @@ static ves_mesh_facts drawn(bed *b, const double *x, int nu, int nv)
     char message[VES_BRIDGE_TEXT];
     ves_figure_destroy(b->figure);
     cr_assert_eq(ves_plan_figure(b->plan, x, nu, nv, &b->figure, b->diag), VES_OK);
-    cr_assert_eq(ves_figure_mesh(b->figure, &mesh, NULL, NULL), VES_OK);
+    cr_assert_eq(ves_figure_mesh(b->figure, true, &mesh), VES_OK);
     cr_assert_eq(ves_bridge_facts(&mesh, true, &facts, message), VES_OK, "%s", message);
     return facts;
 }

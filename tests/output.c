@@ -75,7 +75,7 @@ Test(output, stl_is_closed_edge_by_edge)
         else
             shape_pipe(&figure, 0.6, 1.7, true, 4, 14);
         ves_mesh mesh;
-        ves_figure_mesh(&figure, &mesh, NULL, NULL);
+        ves_figure_mesh(&figure, true, &mesh);
         unsigned char *data = exported(&figure, "stl", &size);
         memcpy(&triangles, data + 80, 4);
         cr_assert(eq(int, (int)triangles, mesh.triangles));
@@ -171,7 +171,7 @@ Test(output, obj_off_and_ply_give_back_every_bit)
     ves_mesh mesh;
     size_t size;
     shape_ring(&figure, shape_torus, torus, 23, 12);
-    ves_figure_mesh(&figure, &mesh, NULL, NULL);
+    ves_figure_mesh(&figure, true, &mesh);
     char *text = (char *)exported(&figure, "obj", &size);
     check_obj(text, &mesh);
     free(text);
@@ -252,7 +252,7 @@ Test(output, vtp_holds_points_triangles_and_fields)
         char *data = (char *)exported(&figure, "vtp", &size);
         sscanf(strstr(data, "NumberOfPoints"), "NumberOfPoints=\"%zu\"", &points);
         sscanf(strstr(data, "NumberOfPolys"), "NumberOfPolys=\"%zu\"", &triangles);
-        ves_figure_mesh(&figure, &mesh, NULL, NULL);
+        ves_figure_mesh(&figure, true, &mesh);
         cr_assert(triangles == (size_t)mesh.triangles, "got %zu triangles want %d", triangles,
                   mesh.triangles);
         /* patches keep their own points: one pole and nine rows each; or five rows and two caps, as fans with

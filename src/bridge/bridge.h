@@ -6,8 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "surface/mesh.h"
-#include "vesica/status.h"
+#include "vesica/figure.h"
 
 #ifdef __cplusplus
 extern "C" {

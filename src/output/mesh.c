@@ -8,7 +8,7 @@ ves_status ves_mesh_write(ves_figure *figure, const char *path, const char *endi
     ves_mesh mesh;
     ves_file file;
     char message[VES_BRIDGE_TEXT] = "";
-    ves_status status = ves_figure_mesh(figure, &mesh, NULL, NULL);
+    ves_status status = ves_figure_mesh(figure, true, &mesh);
     if (status != VES_OK)
         return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "cannot weld the patches: %s",
                             ves_status_text(status));

@@ -110,7 +110,7 @@ ves_status ves_picture_write(ves_figure *figure, const ves_view *view, const cha
 {
     ves_scene scene;
     ves_arena arena = {0};
-    ves_view whole = *view;
+    ves_view whole = view ? *view : ves_view_default();
     if (!whole.width) whole.width = WIDTH;
     if (!whole.height) whole.height = HEIGHT;
     VES_TRY(check(&whole, path, diag));

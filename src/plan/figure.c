@@ -241,10 +241,11 @@ static ves_status seams_lay(const ves_plan *plan, ves_figure *figure, int k)
 static ves_status patch_figure(ves_plan *plan, ves_figure *figure, int k, int nu, int nv)
 {
     ves_figure_patch *f = &figure->patch[k];
+    const char *name = plan->problem->patch[k].name;
     bool periodic = ves_patch_periodic(plan->patch[k]);
     if (nu <= 0)
         nu = plan->sheet[k].ends.joined ? 2 * ALONG : ALONG; /* u goes all the way round, as v does */
-    *f = (ves_figure_patch){.name = plan->problem->patch[k].name,
+    *f = (ves_figure_patch){.name = ves_arena_text(&figure->arena, name, strlen(name)),
                             .nu = nu,
                             .nv = nv,
                             .rows = nu + 1,
@@ -256,6 +257,7 @@ static ves_status patch_figure(ves_plan *plan, ves_figure *figure, int k, int nu
         f->pole[end] = ves_end_is_pole(plan, k, end);
         f->cap[end] = ves_end_is_capped(plan, k, end);
     }
+    if (!f->name) return VES_MEMORY;
     VES_TRY(patch_reserve(figure, f));
     VES_TRY(seams_lay(plan, figure, k));
     VES_TRY(patch_sample(plan, figure, k));

@@ -13,7 +13,7 @@ ves_status ves_plan_crosses(ves_plan *plan)
     bool crosses = false;
     if (plan->branched) return VES_OK;
     VES_TRY(ves_plan_figure_make(plan, ALONG, AROUND, &figure));
-    ves_status status = ves_figure_mesh(figure, &mesh, NULL, NULL);
+    ves_status status = ves_figure_mesh(figure, true, &mesh);
     if (status == VES_OK) status = ves_bridge_crosses(&mesh, &crosses, message);
     ves_figure_destroy(figure);
     if (status == VES_FAULT) return VES_TOUCHES; /* no manifold */

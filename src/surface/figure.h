@@ -6,9 +6,7 @@
 #include <stdbool.h>
 
 #include "base/arena.h"
-#include "surface/mesh.h"
 #include "vesica/figure.h"
-#include "vesica/status.h"
 
 /* One patch on (nu + 1) x nv nodes when periodic in v, else (nu + 1) x (nv + 1): node (i, j) at i * columns +
  * j, u = i / nu, v = v_min + j * (v_max - v_min) / nv (the last row: + slide). */
@@ -34,6 +32,8 @@ typedef struct ves_figure_patch {
                           does; NULL: a fan to the end's middle */
 } ves_figure_patch;
 
+/* mesh.c: ves_figure_mesh welds by index (ends on the same seam, which must have the same nv), never by
+ * distance. */
 struct ves_figure {
     ves_arena arena;
     const char *title;
@@ -42,12 +42,6 @@ struct ves_figure {
     int patches;
     ves_figure_patch *patch;
 };
-
-/* Welds the patches to one mesh in the figure's arena: ends on the same seam share vertices (by index, never
- * by distance), poles are one vertex, caps close their ends, periodic patches close. vertex_patch and
- * vertex_node (both [vertices], NULL: not wanted) say which patch and node a vertex came from (-1, -1 for the
- * middle of a cap). All patches on one seam must have the same nv. */
-ves_status ves_figure_mesh(ves_figure *figure, ves_mesh *mesh, int **vertex_patch, int **vertex_node);
 
 /* Triangles of one patch alone, corners as nodes of the patch: columns close, all of a pole is its first
  * node. Outward; quads are cut along the shorter diagonal. corner has room for 2 nu nv triangles; returns how
