@@ -157,16 +157,17 @@ static int agree(bed *b)
 {
     const double *data[4];
     static const int order[4] = {0, 2, 1, 2}; /* p, d, q, d */
-    double out[3], value[8];
+    double out[3];
+    ves_design design;
     for (int j = 0; j < 4; j++) data[j] = ves_curves_coef(b->plan->curves, order[j]);
     textbook_solve(&b->book, b->x[1], data);
     textbook_measure(&b->book, 16, b->u, b->w, 32, out);
-    ves_plan_measure(b->plan, b->x, 0, value);
+    ves_plan_measure(b->plan, b->x, 0, &design);
     double area = NAN, bending = NAN, volume = NAN;
     for (int k = 0; k < b->plan->problem->measures; k++) {
-        if (!strcmp(b->plan->problem->measure[k].name, "area")) area = value[k];
-        if (!strcmp(b->plan->problem->measure[k].name, "bending")) bending = value[k];
-        if (!strcmp(b->plan->problem->measure[k].name, "flux")) volume = value[k];
+        if (!strcmp(b->plan->problem->measure[k].name, "area")) area = design.measure[k];
+        if (!strcmp(b->plan->problem->measure[k].name, "bending")) bending = design.measure[k];
+        if (!strcmp(b->plan->problem->measure[k].name, "flux")) volume = design.measure[k];
     }
     return fabs(area - out[0]) < 1e-10 * area && fabs(bending - out[2]) < 1e-10 * bending &&
            fabs(fabs(volume) - fabs(out[1])) < 1e-10 * area;
@@ -184,7 +185,7 @@ int main(void)
     ves_read_options options = {.plugin = more};
     ves_problem *problem;
     if (ves_problem_read_text("bench", PROBLEM, strlen(PROBLEM), &options, &problem, diag) ||
-        ves_plan_create(problem, &(ves_plan_options){{0, 0}}, &b.plan, diag)) {
+        ves_plan_create(problem, NULL, &b.plan, diag)) {
         ves_diag_text(diag, 0, text, sizeof text);
         fprintf(stderr, "%s\n", text);
         return 4;

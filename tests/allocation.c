@@ -58,26 +58,9 @@ static const char TEXT[] =
     "search: [{anneal: {evaluations: 40, chains: 2}}, {polish: {evaluations: 20, starts: 1, escape: "
     "false}}]\n";
 
-static ves_status judge(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
-{
-    (void)worker;
-    return ves_plan_evaluate(data, ask, verdict);
-}
-
 static ves_status search(const ves_problem *p, ves_plan *plan)
 {
-    double lower[2], upper[2], begin[2];
-    for (int k = 0; k < 2; k++)
-        lower[k] = p->variable[k].min, upper[k] = p->variable[k].max, begin[k] = p->variable[k].start;
-    ves_search_problem problem = {.n = 2,
-                                  .m = 1,
-                                  .lower = lower,
-                                  .upper = upper,
-                                  .start = begin,
-                                  .gradients = true,
-                                  .workers = 1,
-                                  .evaluate = judge,
-                                  .data = plan};
+    ves_search_problem problem = ves_plan_search(&plan, 1);
     ves_search_result *result = NULL;
     ves_status status = ves_search_run(&problem, &p->search, NULL, &result);
     ves_search_result_destroy(result);
@@ -92,11 +75,13 @@ static ves_status whole(void)
     ves_read_options options = {0};
     ves_diag *diag = ves_diag_create();
     ves_status status = ves_problem_read_text("memory.yaml", TEXT, strlen(TEXT), &options, &problem, diag);
-    if (status == VES_OK) status = ves_plan_create(problem, &(ves_plan_options){{0, 0}}, &plan, diag);
+    if (status == VES_OK) status = ves_plan_create(problem, NULL, &plan, diag);
     if (status == VES_OK) status = search(problem, plan);
     double x[2] = {1.1, 0.1};
     if (status == VES_OK) status = ves_plan_figure(plan, x, 8, 8, &figure, diag);
-    if (figure) ves_figure_destroy(figure);
+    ves_mesh mesh;
+    if (status == VES_OK) status = ves_figure_mesh(figure, false, &mesh);
+    ves_figure_destroy(figure);
     ves_plan_destroy(plan);
     ves_problem_destroy(problem);
     ves_diag_destroy(diag);
@@ -218,7 +203,7 @@ Test(allocation, an_evaluation_allocates_nothing)
     ves_read_options options = {0};
     ves_diag *diag = ves_diag_create();
     cr_assert_eq(ves_problem_read_text("memory.yaml", TEXT, strlen(TEXT), &options, &problem, diag), VES_OK);
-    cr_assert_eq(ves_plan_create(problem, &(ves_plan_options){{0, 0}}, &plan, diag), VES_OK);
+    cr_assert_eq(ves_plan_create(problem, NULL, &plan, diag), VES_OK);
     double x[2] = {1.1, 0.1}, constraint[1], gradient[2], jacobian[2];
     ves_verdict verdict = {.constraint = constraint, .gradient = gradient, .jacobian = jacobian};
     memory_begin(0, true);

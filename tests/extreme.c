@@ -44,16 +44,13 @@ static void bed_clear(bed *b)
     ves_diag_destroy(b->diag);
 }
 
-enum { MEASURES = 8 };
-
 static double measured(const bed *b, const double *x, int level, const char *name)
 {
-    double value[MEASURES];
-    cr_assert(b->problem->measures <= MEASURES);
-    ves_status status = ves_plan_measure(b->plan, x, level, value);
+    ves_design design;
+    ves_status status = ves_plan_measure(b->plan, x, level, &design);
     cr_assert_eq(status, VES_OK, "%s", ves_status_text(status));
     for (int k = 0; k < b->problem->measures; k++)
-        if (!strcmp(b->problem->measure[k].name, name)) return value[k];
+        if (!strcmp(b->problem->measure[k].name, name)) return design.measure[k];
     cr_assert_fail("no measure %s", name);
     return NAN;
 }

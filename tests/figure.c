@@ -56,11 +56,11 @@ static bool told(const bed *b, const char *words)
 
 static double measured(const bed *b, const double *x, const char *name)
 {
-    double value[32];
-    ves_status status = ves_plan_measure(b->plan, x, 0, value);
+    ves_design design;
+    ves_status status = ves_plan_measure(b->plan, x, 0, &design);
     cr_assert_eq(status, VES_OK, "%s", ves_status_text(status));
     for (int k = 0; k < b->problem->measures; k++)
-        if (!strcmp(b->problem->measure[k].name, name)) return value[k];
+        if (!strcmp(b->problem->measure[k].name, name)) return design.measure[k];
     cr_assert_fail("no measure %s", name);
     return NAN;
 }

@@ -26,10 +26,10 @@ static void expect_idle(const char *judged, const char *names)
     ves_problem *p;
     ves_plan *plan;
     ves_arena arena = {0};
-    const int quadrature[2] = {8, 16};
+    const ves_plan_options options = {{8, 16}};
     bool idle[8];
     cr_assert_eq(ves_problem_read_text("rings", text, strlen(text), NULL, &p, diag), VES_OK, "%s", judged);
-    cr_assert_eq(ves_study_plan(p, quadrature, &plan, diag), VES_OK);
+    cr_assert_eq(ves_plan_create(p, &options, &plan, diag), VES_OK);
     bool told = ves_study_idle(plan, p, &arena, idle);
     for (int k = 0; told && k < p->variables; k++)
         if (idle[k]) strcat(strcat(found, p->variable[k].name), " ");

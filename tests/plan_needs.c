@@ -189,12 +189,12 @@ static answer ask(const outside *o, const char *shape, const int *measure, int c
     cr_assert_eq(ves_plan_evaluate(plan, &question, &verdict), VES_OK);
     cr_assert_eq(verdict.status, VES_OK, "%s\n%s", ves_status_text(verdict.status), text);
     a.value = verdict.value;
-    double value[ALL]; /* and once more among all measures of the problem */
-    cr_assert_eq(ves_plan_measure(plan, x, level, value), VES_OK);
+    ves_design all; /* and once more among all measures of the problem */
+    cr_assert_eq(ves_plan_measure(plan, x, level, &all), VES_OK);
     for (int k = 0; k < problem->measures; k++)
         if (!strcmp(problem->measure[k].name, name_of(o, measure[0])))
-            cr_assert(fabs(value[k] - a.value) <= 1e-13 * fabs(a.value), "%s: %.17g, among all %.17g",
-                      name_of(o, measure[0]), a.value, value[k]);
+            cr_assert(fabs(all.measure[k] - a.value) <= 1e-13 * fabs(a.value), "%s: %.17g, among all %.17g",
+                      name_of(o, measure[0]), a.value, all.measure[k]);
     ves_plan_destroy(plan);
     ves_problem_destroy(problem);
     ves_diag_destroy(diag);

@@ -226,7 +226,7 @@ Test(study, the_best_bottle_is_that_of_the_closed_form)
     trial t = run_with(BOTTLE, &options, NULL);
     cr_assert(t.status == VES_OK);
     const ves_run *run = t.run;
-    cr_assert(run->any && run->feasible && run->searched && !run->interrupted);
+    cr_assert(run->any && run->feasible && run->searched && run->ending != VES_ENDED_STOPPED);
     /* the constraint may be off by 1e-6 of its size, which moves the volume by as much */
     near(run->best.objective, PI / sqrt(2), 5e-6, "volume, with its own sign");
     /* polynomials are integrated exactly: rounding */
@@ -271,7 +271,7 @@ Test(study, the_trace_has_a_line_for_each_evaluation)
     /* a violation within 1e-6 of the area buys as much of the volume */
     near(best, t.run->best.objective, 5e-6, "the best of the trace, with the file's sign");
     long counted = 0;
-    for (int k = 0; k < VES_RUN_KINDS; k++) counted += t.run->failed[k];
+    for (int k = 0; k < t.run->failures; k++) counted += t.run->failure[k].count;
     cr_assert(failed == counted, "%ld failed in the trace, %ld counted", failed, counted);
     free(text);
     finish(&t);
@@ -299,12 +299,12 @@ Test(study, a_problem_without_variables_is_measured_once)
 Test(study, what_is_wrong_with_a_design_is_a_note)
 {
     trial t = run_with(TUBE "expect: [area > 0]\n", &(ves_run_options){0}, NULL);
-    cr_assert(t.run->feasible && ves_run_notes(t.run) == 0);
+    cr_assert(t.run->feasible && t.run->notes == 0);
     finish(&t);
     t = run_with(TUBE "quadrature: {u: 8, v: 8}\nmeasures: {m: {max: {of: log(z - 9)}}}\nexpect: [m > 0]\n",
                  &(ves_run_options){0}, NULL);
-    cr_assert(t.run && ves_run_notes(t.run) == 1);
-    cr_assert(eq(str, (char *)ves_run_note(t.run, 0),
+    cr_assert(t.run && t.run->notes == 1);
+    cr_assert(eq(str, (char *)t.run->note[0],
                  "the start design cannot be measured: a measure is not a finite number"));
     finish(&t);
 }
@@ -344,7 +344,10 @@ Test(study, a_search_goes_round_numbers_that_leave_their_range)
                  "minimize: area\n",
                  &(ves_run_options){.evaluations = 1000, .seeded = true, .seed = 3}, NULL);
     cr_assert(t.status == VES_OK && t.run->any && t.run->feasible);
-    cr_expect(t.run->failed[VES_OUTSIDE] > 0, "no candidate was outside");
+    long outside = 0;
+    for (int k = 0; k < t.run->failures; k++)
+        if (t.run->failure[k].status == VES_OUTSIDE) outside = t.run->failure[k].count;
+    cr_expect(outside > 0, "no candidate was outside");
     cr_expect(t.run->best.x[0] >= 0.5);
     near(t.run->best.objective, PI * sqrt(1 + 1.5 * 1.5), 1e-4, "area"); /* its slope there is 3.9 */
     finish(&t);
@@ -377,7 +380,7 @@ Test(study, an_interrupted_run_keeps_the_best_so_far)
     ves_run_hooks hooks = {.stopped = after_some, .data = &asked};
     ves_run_options options = {.evaluations = 1000000, .jobs = 1, .files = true, .out = place("stopped")};
     trial t = run_with(BOTTLE, &options, &hooks);
-    cr_assert(t.status == VES_OK && t.run->interrupted);
+    cr_assert(t.status == VES_OK && t.run->ending == VES_ENDED_STOPPED);
     cr_assert(t.run->any && t.run->evaluations < 1000, "%ld evaluations", t.run->evaluations);
     static const char *const files[] = {"problem.yaml", "result.json", "times.json", "trace.jsonl",
                                         "log.txt",      "best.vtp",    "start.vtp",  "best.png"};

@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "plan/inside.h"
 #include "problem/problem.h"
 #include "surface/figure.h"
 #include "surface/grid.h"
-#include "vesica/plan.h"
 
 enum { X, XU, XV, XUU, XUV, XVV, FIELDS, POINTS = 40 };
 
@@ -26,7 +26,7 @@ static bed bed_make(const char *text)
     ves_read_options options = {0};
     char message[2000] = "";
     ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), &options, &b.problem, b.diag);
-    if (status == VES_OK) status = ves_plan_create(b.problem, &(ves_plan_options){{0, 0}}, &b.plan, b.diag);
+    if (status == VES_OK) status = ves_plan_create(b.problem, NULL, &b.plan, b.diag);
     if (ves_diag_count(b.diag)) ves_diag_text(b.diag, 0, message, sizeof message);
     cr_assert_eq(status, VES_OK, "%s", message);
     return b;
@@ -46,11 +46,12 @@ static void start(const bed *b, double *x)
 
 static double measured(const bed *b, const char *name, int level)
 {
-    double value[16], x[8];
+    double x[8];
+    ves_design design;
     start(b, x);
-    cr_assert_eq(ves_plan_measure(b->plan, x, level, value), VES_OK);
+    cr_assert_eq(ves_plan_measure(b->plan, x, level, &design), VES_OK);
     for (int k = 0; k < b->problem->measures; k++)
-        if (!strcmp(b->problem->measure[k].name, name)) return value[k];
+        if (!strcmp(b->problem->measure[k].name, name)) return design.measure[k];
     cr_assert_fail("no measure %s", name);
     return NAN;
 }
@@ -64,9 +65,10 @@ static void scatter(double *u, double *v)
 
 static void sampled(const bed *b, const double *u, const double *v, double out[FIELDS][3][POINTS])
 {
-    double x[8], value[16];
+    double x[8];
+    ves_design design;
     start(b, x);
-    ves_plan_measure(b->plan, x, 0, value);
+    ves_plan_measure(b->plan, x, 0, &design);
     cr_assert_eq(ves_plan_points(b->plan, 0, POINTS, u, v, &out[0][0][0]), VES_OK);
 }
 
@@ -162,7 +164,7 @@ Test(surface, the_remainder_meets_the_end_curves)
         ves_curves *curves;
         ves_arena arena = {0};
         const ves_problem *p = b.problem;
-        ves_curve_set set = {p->curve, p->curves, p->curve_limit, ves_plan_slots(b.plan), p->varying, NULL};
+        ves_curve_set set = {p->curve, p->curves, p->curve_limit, b.plan->block, p->varying, NULL};
         cr_assert_eq(ves_curves_create(&set, &arena, &curves, NULL), VES_OK);
         for (int i = 0; i < POINTS; i++) {
             double at[9], slope[9];

@@ -20,7 +20,7 @@ static bed bed_make(const char *text, const ves_measure *const *plugin)
     ves_read_options options = {.plugin = plugin};
     char message[2000] = "";
     ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), &options, &b.problem, b.diag);
-    if (status == VES_OK) status = ves_plan_create(b.problem, &(ves_plan_options){{0, 0}}, &b.plan, b.diag);
+    if (status == VES_OK) status = ves_plan_create(b.problem, NULL, &b.plan, b.diag);
     if (ves_diag_count(b.diag)) ves_diag_text(b.diag, 0, message, sizeof message);
     cr_assert_eq(status, VES_OK, "%s", message);
     return b;
@@ -301,11 +301,15 @@ Test(verdicts, constraints_are_told_on_the_scaled_shape)
     bed b = bed_make(CONE("variables: {r: [0.3, 1.4, 2]}\nscale: {equation: area == 5}\n",
                           "minimize: bending\nconstraints: [area <= 6]\n"),
                      NULL);
-    double x = 1.4, arrays[24], left, right, violation;
+    double x = 1.4, arrays[24];
+    ves_design design;
     judged(&b, &x, VES_WANT_GRADIENT, HUGE_VAL, arrays);
-    ves_plan_constraint(b.plan, 0, &left, &right, &violation);
     /* scaled exactly: rounding */
-    cr_expect(fabs(left - 5) < 1e-12 && right == 6 && violation == 0, "%.15g", left);
+    cr_expect(fabs(arrays[0] - (5. - 6) / 6) < 1e-12, "%.15g", arrays[0]);
+    cr_assert_eq(ves_plan_measure(b.plan, &x, 0, &design), VES_OK);
+    const ves_sides *s = design.side;
+    cr_expect(fabs(s->value - 5) < 1e-12 && s->limit == 6 && s->violation == 0 && s->holds, "%.15g",
+              s->value);
     bed_clear(&b);
 }
 
@@ -313,12 +317,13 @@ Test(verdicts, levels_that_are_not_there_are_refused)
 {
     bed b = bed_make(CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: area\n"),
                      NULL);
-    double x = 1.4, value[2];
+    double x = 1.4;
+    ves_design design;
     for (int level = -1; level < 4; level += 3) {
         ves_verdict verdict = {0};
         ves_ask ask = {.x = &x, .level = level, .cutoff = HUGE_VAL};
         cr_expect_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_RANGE);
-        cr_expect_eq(ves_plan_measure(b.plan, &x, level, value), VES_RANGE);
+        cr_expect_eq(ves_plan_measure(b.plan, &x, level, &design), VES_RANGE);
     }
     bed_clear(&b);
 }
@@ -336,15 +341,16 @@ Test(verdicts, the_chosen_grid_sees_the_modes)
                      "position: q}]}}\nexpect: [area > 0]\n",
                      NULL);
     int grid[2];
-    double value[2][1], change;
-    ves_plan_grid(b.plan, 0, grid);
+    double value[2], change = ves_plan_grid(b.plan, grid);
     cr_expect_geq(grid[1], 2 * 61);
     cr_expect_eq(ves_plan_patch(b.plan, 0).modes, 61, "all modes of the data are solved");
-    for (int level = 0; level < 2; level++)
-        cr_assert_eq(ves_plan_measure(b.plan, NULL, level, value[level]), VES_OK);
+    for (int level = 0; level < 2; level++) {
+        ves_design design;
+        cr_assert_eq(ves_plan_measure(b.plan, NULL, level, &design), VES_OK);
+        value[level] = design.measure[0];
+    }
     /* twice the modes are seen: an endless spectrum is left, 2e-9 was seen */
-    cr_expect(fabs(value[0][0] - value[1][0]) < 1e-8 * value[1][0], "%.12g %.12g", value[0][0], value[1][0]);
-    cr_assert_eq(ves_plan_quadrature(b.problem, grid, &change, b.diag), VES_OK);
+    cr_expect(fabs(value[0] - value[1]) < 1e-8 * value[1], "%.12g %.12g", value[0], value[1]);
     cr_expect(change < 1e-6, "%g",
               change); /* the waves' square roots have endless spectra: the largest grid */
     bed_clear(&b);
@@ -359,9 +365,8 @@ Test(verdicts, a_start_that_cannot_be_measured_does_not_choose_the_grid)
         "q}]}}\nminimize: bending\n",
         NULL);
     int grid[2];
-    double change, x = 1, arrays[24];
-    cr_assert_eq(ves_plan_quadrature(b.problem, grid, &change, b.diag), VES_OK);
-    /* 1e-9 is what ves_plan_quadrature promises */
+    double change = ves_plan_grid(b.plan, grid), x = 1, arrays[24];
+    /* 1e-9 is what ves_plan_grid promises */
     cr_expect(grid[1] >= 32 && change <= 1e-9, "%d x %d, %g", grid[0], grid[1], change);
     cr_expect_eq(judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_OK);
     bed_clear(&b);

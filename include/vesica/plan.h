@@ -1,11 +1,20 @@
 /* Plan: a Problem made ready to be evaluated. Everything that can be known before x is known is paid once, in
- * ves_plan_create: x --bind--> numbers --curves--> modes --solve--> patches --sample--> samples --measure-->
- * m[] --judge--> Verdict An evaluation allocates nothing. One plan per thread; the problem is shared. */
+ * ves_plan_create; an evaluation allocates nothing.
+ *
+ *     x --bind--> numbers --curves--> modes --solve--> patches --sample--> samples --measure--> m[]
+ *       --judge--> Verdict
+ *
+ * x[variables] holds the variables in the order of ves_problem_variable, inside or outside their ranges. All
+ * numbers are in SI units (in a file without units: in its own), angles in radians.
+ *
+ * A plan keeps what it evaluated last, so it belongs to one thread at a time: make one plan for each thread.
+ * The problem is shared by all of them and must outlive them. */
 #ifndef VESICA_PLAN_H
 #define VESICA_PLAN_H
 
 #include "vesica/figure.h"
 #include "vesica/problem.h"
+#include "vesica/search.h"
 #include "vesica/verdict.h"
 
 #ifdef __cplusplus
@@ -15,75 +24,94 @@ extern "C" {
 typedef struct ves_plan ves_plan;
 
 typedef struct ves_plan_options {
-    int quadrature[2]; /* nodes along u and v; 0: as the problem says, and `auto` there means
-                          ves_plan_quadrature */
+    int quadrature[2]; /* nodes along u and v; 0: as the problem says; when that is `auto`: chosen */
 } ves_plan_options;
 
-/* A positive status: the start design cannot be sampled; the plan is made all the same. */
+/* options NULL: as the problem says. Choosing a grid takes about as long as a hundred evaluations: give other
+ * plans of the same problem the grid of the first (ves_plan_grid). On failure *plan is NULL and the reason is
+ * in diag, which may be NULL. A start design that cannot be measured is no failure. */
 ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *options, ves_plan **plan,
                            ves_diag *diag);
-void ves_plan_destroy(ves_plan *plan);
+void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
 
-/* The quadrature that `auto` chooses: from 16 nodes along u, and along v enough to see the modes that are
- * solved, each direction is refined by half until two refinements in a row change no measure (extremes
- * left out) by more than 1e-9 of its size, up to 64 and 264 nodes. Measured at the start design or, if
- * that cannot be measured, at the first of 31 others that can. change: the largest relative change left on
- * the grid chosen; NAN when nothing could be measured. */
-ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], double *change, ves_diag *diag);
-
-/* The grid in use (level 1: twice as fine in each direction). */
-void ves_plan_grid(const ves_plan *plan, int level, int quadrature[2]);
+/* The grid of level 0: nodes along u and v of each patch; level 1 has twice as many of both. Where it was
+ * chosen: from 16 nodes along u, and along v enough to see the modes that are solved, each direction was
+ * refined by half until two refinements in a row changed no measure (extremes left out) by more
+ * than 1e-9 of its size, up to 64 and 264 nodes, at the start design or, if that cannot be measured, at the
+ * first of 31 others that can. Returns the largest relative change that was left; NAN when nothing was chosen
+ * or nothing could be measured. */
+double ves_plan_grid(const ves_plan *plan, int quadrature[2]);
 
 /* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation. With
  * VES_WANT_PROOF the candidate is also measured at level 1, must agree within 1 %, and must not cross itself
- * (validity: self_intersection). */
+ * (validity: self_intersection). The arrays of verdict are the caller's. A candidate that fails is
+ * verdict->status > 0; returns negative for faults alone, VES_RANGE: no such level. */
 ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict);
 
-/* All measures at x, which may be NULL when the problem has no variables (also those that nothing judges),
- * and the rest of the number block: value[measures]. A positive status: as a verdict; the measures are then
- * NAN. */
-ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, double *value);
+/* The two sides of a constraint (ves_problem_constraint tells its text and relation). */
+typedef struct ves_sides {
+    double value, limit; /* left and right side */
+    double violation;    /* how far it is not met, relative to its size: 0 when it is */
+    bool holds;          /* within its tolerance: 1e-6, or what `within` says */
+} ves_sides;
+
+/* One candidate with all that is measured on it, in the sign and the units of the file. */
+typedef struct ves_design {
+    ves_status status;     /* VES_OK, or positive: it cannot be measured, the numbers behind slot are NAN */
+    const double *x;       /* [variables] */
+    const double *slot;    /* [slots] variables, unknown of solve:, parameters, as in ves_problem_slot */
+    const double *measure; /* [measures] */
+    const ves_sides *side; /* [constraints] */
+    double objective;      /* NAN: the file has none */
+    double violation;      /* the largest of the constraints, 0 without any */
+    double similarity;     /* the factor of scale:, 1 without */
+    bool feasible;         /* every constraint holds */
+} ves_design;
+
+/* Measures everything at x, also what nothing judges; x may be NULL when there are no variables. The arrays
+ * of design are the plan's and hold until it is used again. Returns design->status, or negative for faults,
+ * VES_RANGE: no such level; design is then untouched. */
+ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_design *design);
 
 /* After an answer VES_OUTSIDE: a warning "what: ..." about the number that has left the range of its key,
- * with its place in the file. */
+ * with its place when diag is the one that the problem was read with. */
 void ves_plan_outside(const ves_plan *plan, const char *what, ves_diag *diag);
 
-/* After ves_plan_measure or ves_plan_evaluate: the slots (variables, unknown, parameters), and the similarity
- * factor of scale: */
-const double *ves_plan_slots(const ves_plan *plan);
-double ves_plan_similarity(const ves_plan *plan);
-
-/* The sides of constraint k after ves_plan_measure or ves_plan_evaluate, in SI units. */
-void ves_plan_constraint(const ves_plan *plan, int index, double *left, double *right, double *violation);
+/* The problem as a search poses it: vesica/search.h with options, hooks and threads of one's own.
+ *
+ *     ves_search_problem search = ves_plan_search(&plan, 1);
+ *     ves_search_run(&search, &options, NULL, &result);
+ *     ves_plan_measure(plan, result->x, 0, &best);
+ *
+ * plan[workers]: one for each thread that may ask at once, all of one problem and one grid; the array and the
+ * plans must outlive the search. A maximum is the minimum of the negative: result->value has the sign of a
+ * verdict, ves_design.objective that of the file. Any member may be changed afterwards: search.start = mine.
+ */
+ves_search_problem ves_plan_search(ves_plan **plan, int workers);
 
 /* What a PDE patch is made of; zero for other kinds. tail: at the design last evaluated. */
 typedef struct ves_patch_facts {
-    int band;  /* modes in the data of its conditions */
-    int modes; /* of these solved one by one */
-    double
-        tail; /* share of the data (root of the sum of squares of each condition, the largest) beyond them */
+    int band;    /* modes in the data of its conditions */
+    int modes;   /* of these solved one by one */
+    double tail; /* share of the data beyond them: root of the sum of squares, of the condition with most */
 } ves_patch_facts;
 ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch);
 
-/* Exact values at scattered points of one patch, after a measure or evaluate: out[(f * 3 + c) * count + k], f
- * in the order X Xu Xv Xuu Xuv Xvv. Allocates. */
+/* Exact values at scattered points (u[k], v[k]) of one patch, 0 <= u <= 1, of the design last evaluated:
+ * out[(f * 3 + c) * count + k], f in the order X Xu Xv Xuu Xuv Xvv, c = x, y, z. VES_MEMORY; VES_RANGE: no
+ * such patch. */
 ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u, const double *v,
                            double *out);
 
-/* The spine of a PDE patch, after a measure or evaluate: out[(d * 3 + c) * count + k]. VES_ABSENT: that patch
- * has none. */
+/* The spine of a PDE patch and its first two derivatives, of the design last evaluated: out[(d * 3 + c) *
+ * count + k]. VES_ABSENT: that patch has none; VES_MEMORY; VES_RANGE: no such patch. */
 ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u, double *out);
 
-/* The shape at x on nu x nv cells a patch (0: chosen), for files and pictures. Owned by the caller. */
+/* The shape at x on nu x nv cells a patch (0: chosen), for files, pictures and meshes. Owned by the caller. A
+ * design that fails is drawn all the same, with a warning in diag, as long as it has a shape: a positive
+ * status says that it has none (VES_NO_ROOT) and *figure is NULL, as after VES_MEMORY. */
 ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_figure **figure,
                            ves_diag *diag);
-
-/* Counters: evaluations, gradients and failed candidates by status so far. */
-typedef struct ves_plan_counts {
-    long values, gradients, proofs;
-    long failed[16]; /* by positive status */
-} ves_plan_counts;
-const ves_plan_counts *ves_plan_counted(const ves_plan *plan);
 
 #ifdef __cplusplus
 }

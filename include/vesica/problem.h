@@ -1,5 +1,10 @@
 /* Problem: a problem file, read, checked and resolved. Constant after reading and shared by all threads; owns
- * all that its functions hand out. Numbers are in SI units, angles in radians. */
+ * all that its functions hand out, as long as it lives. Numbers are in SI units (in a file without units: in
+ * its own), angles in radians.
+ *
+ * Everything is named by its index, from 0: x[variables], slot[slots], measure[measures], side[constraints]
+ * and the patches of a mesh are arrays in the order of the functions here. They return NULL for an index that
+ * is not there. */
 #ifndef VESICA_PROBLEM_H
 #define VESICA_PROBLEM_H
 
@@ -21,27 +26,41 @@ typedef struct ves_override {
 typedef struct ves_read_options {
     int overrides;
     const ves_override *override;
-    const ves_measure *const *plugin; /* NULL-terminated extra measures, or NULL */
+    const ves_measure *const *plugin; /* NULL-terminated extra measures, or NULL; must outlive the problem */
 } ves_read_options;
 
-/* Reads a file, or a text under a name. Every error of the file is in diag, not only the first. On failure
- * *problem is NULL. */
+/* Reads a file, or a text under a name (for messages). options NULL: none. Every error of the file is in
+ * diag, not only the first; diag may be NULL. On failure the status is that of an error and *problem is NULL.
+ */
 ves_status ves_problem_read(const char *path, const ves_read_options *options, ves_problem **problem,
                             ves_diag *diag);
 ves_status ves_problem_read_text(const char *name, const char *text, size_t length,
                                  const ves_read_options *options, ves_problem **problem, ves_diag *diag);
-void ves_problem_destroy(ves_problem *problem);
+void ves_problem_destroy(ves_problem *problem); /* NULL: nothing */
 
 const char *ves_problem_title(const ves_problem *problem);
 
-/* What the arrays of plans and runs mean, by index: x[variables], value[measures], constraints, patches. */
+/* The objective as written; NULL: the file has none. */
+const char *ves_problem_objective(const ves_problem *problem, bool *maximize);
+
+/* The name of a variable; its range and start where the pointers are not NULL. */
 int ves_problem_variables(const ves_problem *problem);
 const char *ves_problem_variable(const ves_problem *problem, int index, double *min, double *start,
                                  double *max);
+
+/* All numbers that have a name: the variables, then the unknown of solve: if there is one, then the
+ * parameters, each after those that it reads. */
+int ves_problem_slots(const ves_problem *problem);
+const char *ves_problem_slot(const ves_problem *problem, int index);
+
 int ves_problem_measures(const ves_problem *problem);
 const char *ves_problem_measure(const ves_problem *problem, int index);
+
+/* A constraint as written, and what its left side must be to its right side. */
+typedef enum ves_relation { VES_AT_MOST, VES_AT_LEAST, VES_EQUAL } ves_relation;
 int ves_problem_constraints(const ves_problem *problem);
-const char *ves_problem_constraint(const ves_problem *problem, int index); /* as written */
+const char *ves_problem_constraint(const ves_problem *problem, int index, ves_relation *relation);
+
 int ves_problem_patches(const ves_problem *problem);
 const char *ves_problem_patch(const ves_problem *problem, int index);
 

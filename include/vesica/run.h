@@ -1,9 +1,16 @@
-/* Run: from a problem to its best design and the folder that keeps it, as `vesica run` does. */
+/* Run: from a problem to its best design and the folder that keeps it, as `vesica run` does: the grid is
+ * chosen once, the search of the file runs on `jobs` threads, and the best is measured again on a grid twice
+ * as fine. A problem without variables is measured once.
+ *
+ * Numbers have the sign and the units of the file (SI, angles in radians; in a file without units: its own).
+ * The same seed gives the same result for any number of jobs. Several runs may go on at once, in threads of
+ * their own; a diag belongs to one of them. */
 #ifndef VESICA_RUN_H
 #define VESICA_RUN_H
 
 #include <stdint.h>
 
+#include "vesica/plan.h"
 #include "vesica/problem.h"
 #include "vesica/search.h"
 
@@ -11,12 +18,11 @@
 extern "C" {
 #endif
 
-typedef struct ves_run ves_run;
-
 /* Which candidates trace.jsonl keeps. SHORT: each new best, and of the accepted ones ever fewer: each of the
  * first 2500, then every second until 2500 more stand there, then every fourth, and so on. */
 typedef enum ves_trace { VES_TRACE_SHORT, VES_TRACE_ALL, VES_TRACE_ACCEPTED, VES_TRACE_NONE } ves_trace;
 
+/* All zeros: what the file says, on all threads of the machine, and no files. */
 typedef struct ves_run_options {
     bool seeded; /* seed holds; else the problem's */
     uint64_t seed;
@@ -32,31 +38,87 @@ typedef struct ves_run_options {
     ves_trace trace;
 } ves_run_options;
 
-/* Called from the thread that runs the study, but `stopped` from any. Values have the sign of the file. */
+/* One line under `expect:`. */
+typedef struct ves_run_expect {
+    const char *text; /* as written */
+    bool passed;
+} ves_run_expect;
+
+/* How many candidates could not be measured for one reason. */
+typedef struct ves_run_failure {
+    ves_status status;
+    long count;
+} ves_run_failure;
+
+/* Clock data: all that may differ between two runs of one seed. */
+enum { VES_RUN_NAME = 16 };
+typedef struct ves_run_times {
+    char started[32]; /* UTC, ISO 8601 */
+    double wall, cpu; /* s, of everything */
+    double search;    /* s, wall, of the search alone */
+    int threads;      /* of the machine */
+    int stages;
+    struct {
+        char name[VES_RUN_NAME];
+        double wall; /* s */
+        long evaluations;
+    } stage[VES_STAGES];
+} ves_run_times;
+
+/* Everything that one run produced; it owns all that it points to but the problem. */
+typedef struct ves_run {
+    const ves_problem *problem; /* the one given, which must outlive the run */
+
+    /* Known when the search begins. */
+    bool searched; /* false: measured once */
+    uint64_t seed;
+    int jobs, quadrature[2];
+    double change; /* relative, that the choice of the quadrature left; NAN: it was given */
+    ves_design start;
+    const bool *idle;   /* [variables] nothing that is judged depends on it; NULL: nobody looked */
+    const char *folder; /* NULL: none */
+
+    /* The result. */
+    bool any;               /* some design could be measured: best holds */
+    bool feasible;          /* ... and it meets its constraints and is proved: on a finer grid, uncrossed */
+    ves_status proof;       /* of a design measured once: why it did not pass its checks, or VES_OK */
+    ves_design best, finer; /* finer: best on a grid twice as fine */
+    double finer_change;    /* largest relative difference of the two */
+    int optima;             /* distinct ends of the search */
+    const ves_optimum *optimum; /* best first; value with the sign of the file, violation as in a verdict */
+    ves_ending ending;
+    const char *stop; /* a sentence: why the search ended */
+    int notes;
+    const char *const *note; /* sentences: what failed a check, saddles left, budget too short ... */
+    long evaluations, gradients;
+    int failures;
+    const ves_run_failure *failure; /* by status, those that happened */
+    int expects;
+    const ves_run_expect *expect;
+    bool passed; /* every expect held */
+    int temperatures;
+    const ves_temperature *temperature;
+    ves_run_times times;
+} ves_run;
+
+/* Called from the thread that called ves_run_create, but `stopped` from any. Values have the sign of the
+ * file.
+ */
 typedef struct ves_run_hooks {
-    void (*begun)(void *data, const ves_run *run); /* all is ready, the search begins */
+    void (*begun)(void *data,
+                  const ves_run *run); /* all is ready, the search begins: run has no result yet */
     void (*progress)(void *data, const ves_progress *progress);
-    bool (*stopped)(void *data);
+    bool (*stopped)(void *data); /* true: end cleanly with the best so far */
     void *data;
 } ves_run_hooks;
 
-/* diag gets warnings and errors. VES_OK: see interrupted, feasible, passed. VES_IO or VES_MEMORY with a
- * result: it holds, but its folder could not be made or filled. VES_USAGE, VES_IO without a result: `out`
- * cannot be used; nothing was searched. Whenever there is no result, *run is NULL. */
+/* options, hooks, diag: NULL for none. diag gets warnings and errors. VES_OK: see ending, feasible, passed.
+ * VES_IO or VES_MEMORY with a result: it holds, but its folder could not be made or filled. VES_USAGE, VES_IO
+ * without a result: `out` cannot be used; nothing was searched. Whenever there is no result, *run is NULL.
+ * Destroy a run before its problem. */
 ves_status ves_run_create(const ves_problem *problem, const ves_run_options *options,
                           const ves_run_hooks *hooks, ves_run **run, ves_diag *diag);
-void ves_run_destroy(ves_run *run);
-
-/* The best design, or NULL when no design could be measured: x[variables], and in the arguments that are not
- * NULL its objective with the sign of the file, its largest violation, its measures[measures]. Owned by the
- * run. */
-const double *ves_run_best(const ves_run *run, double *objective, double *violation, const double **measures);
-bool ves_run_feasible(const ves_run *run);    /* and proved on a finer grid, without crossing itself */
-bool ves_run_passed(const ves_run *run);      /* every `expect` of the file held */
-const char *ves_run_stop(const ves_run *run); /* a sentence: why it ended */
-int ves_run_notes(const ves_run *run);        /* sentences: what failed a check, what was left out and why */
-const char *ves_run_note(const ves_run *run, int index);
-const char *ves_run_folder(const ves_run *run); /* NULL: none */
+void ves_run_destroy(ves_run *run); /* NULL: nothing */
 
 #ifdef __cplusplus
 }

@@ -140,6 +140,13 @@ typedef struct ves_temperature {
     double mean, variance; /* of the energy */
 } ves_temperature;
 
+/* Why a search ended. */
+typedef enum ves_ending {
+    VES_ENDED_DONE,   /* of itself: frozen, converged, or nowhere left to go */
+    VES_ENDED_BUDGET, /* the last stage, or one that could not begin, had no evaluations left */
+    VES_ENDED_STOPPED /* the hook `stopped` said so */
+} ves_ending;
+
 /* Everything one search produced. Owned by the caller; one block. */
 typedef struct ves_search_result {
     int n, m;
@@ -151,6 +158,7 @@ typedef struct ves_search_result {
     const double *constraint; /* [m] at the best */
     long evaluations;         /* proofs too */
     long gradients;
+    ves_ending ending;
     const char *stop; /* a sentence: why the last stage that began ended */
     int notes;
     const char *const

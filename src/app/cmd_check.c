@@ -10,6 +10,7 @@
 typedef struct checked {
     const ves_run *run;
     ves_patch_facts *facts;
+    bool gradients;                   /* every measure that is judged has one */
     double value_time, gradient_time; /* s; NAN: not measured */
 } checked;
 
@@ -38,7 +39,8 @@ static ves_status timings(app *a, checked *c, ves_plan *plan)
     c->value_time = time_one(plan, &ask, &verdict);
     c->gradient_time = NAN;
     ask.want = VES_WANT_GRADIENT;
-    if (n && (p->objective || m) && ves_study_gradients(p)) c->gradient_time = time_one(plan, &ask, &verdict);
+    c->gradients = ves_plan_search(&plan, 1).gradients;
+    if (n && (p->objective || m) && c->gradients) c->gradient_time = time_one(plan, &ask, &verdict);
     return VES_OK;
 }
 
@@ -48,7 +50,8 @@ static ves_status look(app *a, checked *c)
     ves_plan *plan;
     c->facts = ves_arena_take(&a->arena, (size_t)p->patches, sizeof *c->facts);
     if (!c->facts) return VES_MEMORY;
-    VES_TRY(ves_study_plan(p, c->run->quadrature, &plan, NULL));
+    const ves_plan_options grid = {{c->run->quadrature[0], c->run->quadrature[1]}};
+    VES_TRY(ves_plan_create(p, &grid, &plan, NULL));
     for (int k = 0; k < p->patches; k++) c->facts[k] = ves_plan_patch(plan, k);
     ves_status status = timings(a, c, plan);
     ves_plan_destroy(plan);
@@ -117,7 +120,7 @@ static void costs(const checked *c)
         printf("\n  time         %s an evaluation", app_screen_time(c->value_time, value));
     if (!isnan(c->gradient_time))
         printf(", %s with gradients", app_screen_time(c->gradient_time, gradient));
-    else if (run->problem->variables && !ves_study_gradients(run->problem))
+    else if (run->problem->variables && !c->gradients)
         printf("; a measure has no gradient");
     fputc('\n', stdout);
 }

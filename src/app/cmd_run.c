@@ -46,13 +46,13 @@ static void json_print(const ves_run *run)
     ves_json_number(&json, "wall_s", run->times.wall);
     ves_json_number(&json, "cpu_s", run->times.cpu);
     ves_json_text(&json, "folder", run->folder);
-    ves_json_flag(&json, "interrupted", run->interrupted);
+    ves_json_flag(&json, "interrupted", run->ending == VES_ENDED_STOPPED);
     ves_json_end(&json, '}');
 }
 
 static int verdict(const ves_run *run, ves_status status)
 {
-    if (run->interrupted) return APP_INTERRUPTED;
+    if (run->ending == VES_ENDED_STOPPED) return APP_INTERRUPTED;
     if (status != VES_OK) return app_code(status);
     return run->any && run->feasible && run->passed ? APP_DONE : APP_UNMET;
 }

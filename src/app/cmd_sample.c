@@ -88,10 +88,8 @@ static int spine(app *a, ves_plan *plan, const ves_problem *problem, int patch)
 /* Binds the design; what fails only because of a check (a fold, say) can still be sampled. */
 static int bound(app *a, app_shape *shape)
 {
-    const ves_problem *p = shape->opened.problem;
-    double *measure = ves_arena_take(&a->arena, (size_t)p->measures, sizeof *measure);
-    if (!measure) return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
-    ves_status status = ves_plan_measure(shape->plan, shape->x, 0, measure);
+    ves_design design;
+    ves_status status = ves_plan_measure(shape->plan, shape->x, 0, &design);
     if (status < VES_OK || status == VES_NO_ROOT) return app_fail(a, status, "%s", ves_status_text(status));
     if (status > VES_OK)
         ves_diag_add(a->diag, VES_WARNING, status, (ves_mark){0}, "%s", ves_status_text(status));

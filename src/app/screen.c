@@ -111,7 +111,7 @@ static void constraints(const ves_problem *problem, const ves_design *design, FI
         app_table_cell(&t, "%s", c->shown.unit);
         if (isnan(s->violation))
             app_table_cell(&t, "not measured");
-        else if (s->violation <= c->within)
+        else if (s->holds)
             app_table_cell(&t, "ok");
         else
             app_table_cell(&t, "VIOLATED by %.2g of its size", s->violation);
@@ -225,7 +225,7 @@ static void optima(const ves_run *run, app_table *t)
     const ves_shown *shown = &run->problem->objective_shown;
     if (run->optima < 2 && !(run->optima == 1 && run->optimum[0].saddle)) return;
     for (int k = 0; k < run->optima && k < OPTIMA; k++) {
-        const ves_run_optimum *o = &run->optimum[k];
+        const ves_optimum *o = &run->optimum[k];
         char number[32], hits[64] = "once",
                          apart[200] = ""; /* more digits than elsewhere: they may differ late */
         snprintf(number, sizeof number, "%#.9g", o->value / shown->factor);
@@ -289,7 +289,7 @@ static void remarks(const ves_run *run, FILE *out)
 
 static void conclusion(const ves_run *run, FILE *out)
 {
-    if (run->interrupted) fputs("\n  interrupted: this is the best so far\n", out);
+    if (run->ending == VES_ENDED_STOPPED) fputs("\n  interrupted: this is the best so far\n", out);
     if (!run->any)
         fputs("\n  no design could be measured\n", out);
     else if (!run->feasible && run->best.violation > 0)

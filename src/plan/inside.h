@@ -100,8 +100,21 @@ struct ves_plan {
     double *unit_row;       /* [slots] gradient of scale's measure */
     ves_tile_planes *field, *field_adjoint;
     ves_form_planes *form;
-    ves_plan_counts counts;
+    double change; /* that the choice of the grid left; NAN: it was given */
+
+    /* what ves_plan_measure tells */
+    double *told;     /* [measures] */
+    ves_sides *sides; /* [constraints] */
+
+    /* what ves_plan_search hands out: [variables], [constraints] */
+    double *lower, *upper, *start;
+    const char **name;
+    bool *equality;
 };
+
+/* quadrature.c: the grid that `auto` chooses, as ves_plan_grid describes it; change: NAN when nothing could
+ * be measured. */
+ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], double *change, ves_diag *diag);
 
 /* level.c */
 ves_status ves_plan_level_build(ves_plan *plan, int index);
@@ -127,6 +140,12 @@ double ves_plan_formula(ves_plan *plan, const ves_formula *formula);
 
 /* judge.c: the largest violation among the constraints that read no dear measure */
 double ves_plan_cheap_violation(ves_plan *plan);
+
+/* pose.c: what ves_plan_search hands out */
+ves_status ves_plan_pose(ves_plan *plan);
+
+/* judge.c: every measure at x, in plan->value */
+ves_status ves_plan_measure_all(ves_plan *plan, const double *x, int level);
 
 /* gradient.c */
 void ves_plan_gradient(ves_plan *plan, int level, int output, const ves_formula *const *formula,

@@ -24,15 +24,6 @@ static double own_tolerance(const ves_constraint_def *c)
     return VES_FEASIBLE / c->within;
 }
 
-void ves_plan_constraint(const ves_plan *plan, int k, double *left, double *right, double *v)
-{
-    ves_plan *p = (ves_plan *)plan; /* formulas need scratch, which is the plan's */
-    const ves_constraint_def *c = &plan->problem->constraint[k];
-    *left = ves_plan_formula(p, c->left);
-    *right = ves_plan_formula(p, c->right);
-    *v = violation(c, excess(p, k));
-}
-
 double ves_plan_cheap_violation(ves_plan *plan)
 {
     double worst = 0;
@@ -135,7 +126,6 @@ static ves_status prove(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict
     ves_ask only = *ask;
     ves_verdict fine = {.status = VES_OK};
     only.want &= ~(unsigned)(VES_WANT_PROOF | VES_WANT_GRADIENT);
-    plan->counts.proofs++;
     VES_TRY(judge(plan, &only, 1, &fine));
     memcpy(plan->fine, plan->value, sizeof(double) * (size_t)plan->problem->measures);
     if (plan->problem->validity.self_intersection) VES_TRY(ves_plan_crosses(plan));
@@ -145,10 +135,9 @@ static ves_status prove(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict
     return agree && fine.violation <= verdict->violation + AGREE ? VES_OK : VES_COARSE;
 }
 
-static ves_status failed(ves_plan *plan, ves_status status, ves_verdict *verdict)
+static ves_status failed(ves_status status, ves_verdict *verdict)
 {
     if (status <= VES_OK) return status;
-    plan->counts.failed[status]++;
     verdict->status = status;
     if (status != VES_CUT) verdict->violation = HUGE_VAL;
     return VES_OK;
@@ -158,17 +147,54 @@ ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *ve
 {
     if (ask->level < 0 || ask->level >= LEVELS) return VES_RANGE;
     verdict->status = VES_OK;
-    plan->counts.values++;
-    if (ask->want & VES_WANT_GRADIENT) plan->counts.gradients++;
     bool proof = ask->want & VES_WANT_PROOF;
-    return failed(plan, proof ? prove(plan, ask, verdict) : judge(plan, ask, ask->level, verdict), verdict);
+    return failed(proof ? prove(plan, ask, verdict) : judge(plan, ask, ask->level, verdict), verdict);
 }
 
-ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, double *value)
+/* --- a design as people see it --- */
+
+ves_status ves_plan_measure_all(ves_plan *plan, const double *x, int level)
 {
-    if (level < 0 || level >= LEVELS) return VES_RANGE;
     ves_status status = ves_plan_forward(plan, x, level, PROGRAM_ALL, false);
-    if (status == VES_OK) status = ves_plan_validity(plan, level);
-    for (int m = 0; m < plan->problem->measures; m++) value[m] = status == VES_OK ? plan->value[m] : NAN;
-    return status;
+    return status == VES_OK ? ves_plan_validity(plan, level) : status;
+}
+
+static void tell(ves_plan *plan, ves_design *design)
+{
+    const ves_problem *p = plan->problem;
+    memcpy(plan->told, plan->value, sizeof(double) * (size_t)p->measures);
+    design->similarity = plan->similarity;
+    design->violation = 0;
+    design->feasible = true;
+    for (int k = 0; k < p->constraints; k++) {
+        const ves_constraint_def *c = &p->constraint[k];
+        double v = violation(c, excess(plan, k));
+        plan->sides[k] =
+            (ves_sides){ves_plan_formula(plan, c->left), ves_plan_formula(plan, c->right), v, v <= c->within};
+        design->violation = fmax(design->violation, v);
+        design->feasible = design->feasible && plan->sides[k].holds;
+    }
+    if (!p->objective) return;
+    design->objective = ves_plan_formula(plan, p->objective);
+    if (!isfinite(design->objective)) design->status = VES_NO_NUMBER;
+}
+
+ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_design *design)
+{
+    const ves_problem *p = plan->problem;
+    if (level < 0 || level >= LEVELS) return VES_RANGE;
+    ves_status status = ves_plan_measure_all(plan, x, level);
+    if (status < VES_OK) return status;
+    *design = (ves_design){.status = status,
+                           .x = plan->block,
+                           .slot = plan->block,
+                           .measure = plan->told,
+                           .side = plan->sides,
+                           .objective = NAN,
+                           .violation = NAN,
+                           .similarity = NAN};
+    for (int m = 0; m < p->measures; m++) plan->told[m] = NAN;
+    for (int k = 0; k < p->constraints; k++) plan->sides[k] = (ves_sides){NAN, NAN, NAN, false};
+    if (status == VES_OK) tell(plan, design);
+    return design->status;
 }

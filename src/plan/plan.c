@@ -98,10 +98,12 @@ static ves_status memory_take(ves_plan *plan)
     plan->sheet = ves_arena_take(a, (size_t)p->patches, sizeof *plan->sheet);
     plan->side = ves_arena_take(a, (size_t)p->patches, sizeof *plan->side);
     plan->part = ves_arena_take(a, (size_t)p->patches, sizeof *plan->part);
+    plan->told = ves_arena_doubles(a, (size_t)p->measures);
+    plan->sides = ves_arena_take(a, (size_t)p->constraints, sizeof *plan->sides);
     return plan->block && plan->block_adjoint && plan->value && plan->fine && plan->measure_adjoint &&
                    plan->size && plan->cheap && plan->formula_room && plan->rows && plan->row_similarity &&
                    plan->unit_row && plan->field && plan->field_adjoint && plan->form && plan->patch &&
-                   plan->sheet && plan->side && plan->part
+                   plan->sheet && plan->side && plan->part && plan->told && plan->sides
                ? VES_OK
                : VES_MEMORY;
 }
@@ -199,6 +201,7 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     VES_TRY(ves_plan_orient(plan, diag));
     VES_TRY(ves_plan_face_outward(plan));
     VES_TRY(runs_make(plan));
+    VES_TRY(ves_plan_pose(plan));
     for (int k = 0; k < LEVELS; k++) {
         for (int d = 0; d < 2; d++) plan->level[k].quadrature[d] = options->quadrature[d] << k;
         VES_TRY(ves_plan_level_build(plan, k));
@@ -210,29 +213,37 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     return VES_OK;
 }
 
+/* The grid: what the options say, else the problem, else what is chosen. */
+static ves_status grid_settle(const ves_problem *problem, ves_plan_options *options, double *change)
+{
+    int chosen[2], *q = options->quadrature;
+    *change = NAN;
+    for (int d = 0; d < 2; d++)
+        if (q[d] <= 0) q[d] = problem->quadrature[d];
+    if (q[0] > 0 && q[1] > 0) return VES_OK;
+    ves_status status = ves_plan_quadrature(problem, chosen, change, NULL); /* it tries many plans: */
+    for (int d = 0; d < 2; d++)
+        if (q[d] <= 0) q[d] = chosen[d];
+    return status == VES_MEMORY ? status : VES_OK; /* the one that is used will speak */
+}
+
 ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *options, ves_plan **out,
                            ves_diag *diag)
 {
-    *out = NULL;
-    ves_plan_options chosen = *options;
-    for (int d = 0; d < 2; d++)
-        if (chosen.quadrature[d] <= 0) chosen.quadrature[d] = problem->quadrature[d];
-    if (chosen.quadrature[0] <= 0 || chosen.quadrature[1] <= 0) {
-        double change;
-        VES_TRY(ves_plan_quadrature(problem, chosen.quadrature, &change, diag));
-    }
-    ves_plan *plan = ves_memory_take(sizeof *plan);
-    if (!plan)
-        return ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s", ves_status_text(VES_MEMORY));
-    plan->problem = problem;
+    ves_plan_options chosen = options ? *options : (ves_plan_options){{0, 0}};
     int before = ves_diag_errors(diag);
-    ves_status status = build(plan, &chosen, diag);
+    ves_plan *plan = ves_memory_take(sizeof *plan);
+    ves_status status = plan ? VES_OK : VES_MEMORY;
+    *out = NULL;
+    if (plan) plan->problem = problem;
+    if (status == VES_OK) status = grid_settle(problem, &chosen, &plan->change);
+    if (status == VES_OK) status = build(plan, &chosen, diag);
     if (status == VES_OK) {
         *out = plan;
         return VES_OK;
     }
-    if (status == VES_MEMORY && ves_diag_errors(diag) == before)
-        ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s", ves_status_text(VES_MEMORY));
+    if (ves_diag_errors(diag) == before)
+        ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "%s", ves_status_text(status));
     ves_plan_destroy(plan);
     return status;
 }
@@ -250,28 +261,20 @@ void ves_plan_destroy(ves_plan *plan)
     ves_memory_free(plan);
 }
 
-void ves_plan_grid(const ves_plan *plan, int level, int quadrature[2])
+double ves_plan_grid(const ves_plan *plan, int quadrature[2])
 {
-    memcpy(quadrature, plan->level[level].quadrature, sizeof plan->level[level].quadrature);
+    memcpy(quadrature, plan->level[0].quadrature, sizeof plan->level[0].quadrature);
+    return plan->change;
 }
 
-const double *ves_plan_slots(const ves_plan *plan)
+static bool there(const ves_plan *plan, int patch)
 {
-    return plan->block;
-}
-
-double ves_plan_similarity(const ves_plan *plan)
-{
-    return plan->similarity;
-}
-
-const ves_plan_counts *ves_plan_counted(const ves_plan *plan)
-{
-    return &plan->counts;
+    return patch >= 0 && patch < plan->problem->patches;
 }
 
 ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch)
 {
+    if (!there(plan, patch)) return (ves_patch_facts){0};
     const ves_patch *p = plan->patch[patch];
     return (ves_patch_facts){
         .band = ves_patch_band(p), .modes = ves_patch_modes(p), .tail = ves_patch_tail(p)};
@@ -280,6 +283,7 @@ ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch)
 ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u, const double *v,
                            double *out)
 {
+    if (!there(plan, patch)) return VES_RANGE;
     ves_arena arena = {0};
     double *room = ves_arena_doubles(&arena, (size_t)ves_patch_point_room(plan->patch[patch]));
     if (!room) return VES_MEMORY;
@@ -291,6 +295,7 @@ ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u
 
 ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u, double *out)
 {
+    if (!there(plan, patch)) return VES_RANGE;
     ves_arena arena = {0};
     double *room = ves_arena_doubles(&arena, (size_t)ves_patch_point_room(plan->patch[patch]));
     if (!room) return VES_MEMORY;

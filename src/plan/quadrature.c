@@ -19,7 +19,8 @@ static ves_status measures_on(const ves_problem *problem, const double *x, const
 {
     ves_plan *plan;
     VES_TRY(ves_plan_create(problem, &(ves_plan_options){.quadrature = {grid[0], grid[1]}}, &plan, diag));
-    ves_status status = ves_plan_measure(plan, x, 0, value);
+    ves_status status = ves_plan_measure_all(plan, x, 0);
+    for (int m = 0; m < problem->measures; m++) value[m] = plan->value[m];
     ves_plan_destroy(plan);
     return status;
 }
@@ -47,7 +48,7 @@ static int resolving(const ves_plan *plan)
 }
 
 /* A design that can be measured: the start, the middle of the box, or one of some random ones. */
-static ves_status design_find(const ves_problem *problem, ves_plan *plan, double *x, double *value)
+static ves_status design_find(const ves_problem *problem, ves_plan *plan, double *x)
 {
     ves_status status = VES_DEGENERATE;
     for (int t = 0; t < TRIES && status > VES_OK; t++) {
@@ -57,7 +58,7 @@ static ves_status design_find(const ves_problem *problem, ves_plan *plan, double
             x[k] =
                 t == 0 ? v->start : v->min + (v->max - v->min) * (t == 1 ? 0.5 : ves_random_uniform(&random));
         }
-        status = ves_plan_measure(plan, x, 0, value);
+        status = ves_plan_measure_all(plan, x, 0);
     }
     return status;
 }
@@ -101,7 +102,7 @@ ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], do
         ves_plan_destroy(plan);
         status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, diag);
     }
-    if (status == VES_OK) status = design_find(problem, plan, x, value);
+    if (status == VES_OK) status = design_find(problem, plan, x);
     for (int d = 0; d < 2 && status == VES_OK; d++)
         status = refine(problem, x, d, grid, &left[d], value, diag);
     ves_plan_destroy(plan);

@@ -116,8 +116,6 @@ typedef struct ves_measure_def {
     ves_shown shown;
 } ves_measure_def;
 
-typedef enum ves_relation { VES_AT_MOST, VES_AT_LEAST, VES_EQUAL } ves_relation;
-
 /* left RELATION right. Formulas read slots and measures (arguments). */
 typedef struct ves_constraint_def {
     ves_mark mark;

@@ -219,16 +219,16 @@ static ves_status lower(anneal *a)
         VES_TRY(temperature(a, m));
         if (ves_session_over(session)) return VES_OK;
         if (a->c <= frozen && cooling->s < 1 && a->options->c_end < 1) {
-            ves_session_stop(session, "anneal: frozen, the temperature fell to %.3g", a->c);
+            ves_session_stop(session, VES_ENDED_DONE, "anneal: frozen, the temperature fell to %.3g", a->c);
             return VES_OK;
         }
         if (a->quiet >= QUIET) {
-            ves_session_stop(session, "anneal: frozen, nothing was accepted at the last %d temperatures",
-                             QUIET);
+            ves_session_stop(session, VES_ENDED_DONE,
+                             "anneal: frozen, nothing was accepted at the last %d temperatures", QUIET);
             return VES_OK;
         }
     }
-    ves_session_stop(session, "anneal: its budget of %ld evaluation%s is spent", a->budget,
+    ves_session_stop(session, VES_ENDED_BUDGET, "anneal: its budget of %ld evaluation%s is spent", a->budget,
                      a->budget == 1 ? "" : "s");
     if (a->options->c_end < 1)
         ves_session_note(

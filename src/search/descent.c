@@ -391,9 +391,14 @@ ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *en
     return d->asker.fault ? d->asker.fault : status;
 }
 
+bool ves_descent_spent(const ves_descent *d)
+{
+    return d->spent || d->used >= d->budget;
+}
+
 const char *ves_descent_sentence(const ves_descent *d)
 {
-    if (d->spent || d->used >= d->budget) return "the budget of evaluations is spent";
+    if (ves_descent_spent(d)) return "the budget of evaluations is spent";
     if (d->lost) return d->lost;
     return d->beside ? "ended beside a candidate that cannot be measured" : ves_recipe_sentence(d->code);
 }

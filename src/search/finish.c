@@ -205,6 +205,7 @@ static bool fill_logs(ves_search_result *r, ves_session *session)
     r->notes = session->notes;
     r->temperature = log_copy;
     r->temperatures = session->temperatures;
+    r->ending = session->ending;
     r->stop = session->stop;
     r->evaluations = session->evaluations;
     r->gradients = session->gradients;
@@ -227,6 +228,7 @@ static ves_status fill(box *b, ves_session *session)
     r->m = session->m;
     if (atomic_load(&session->stopped)) {
         r->status = VES_INTERRUPTED;
+        session->ending = VES_ENDED_STOPPED;
         session->stop = ves_status_text(VES_INTERRUPTED);
     }
     if (proved && best->verdict.violation > session->tolerance)

@@ -142,7 +142,9 @@ static void tell_stop(polish *p, const ves_polish *options)
         const task *t = &p->task[k];
         if (ves_session_better(session, &t->end[0].point.verdict, &best->end[0].point.verdict)) best = t;
     }
-    ves_session_stop(session, "%s: %s", options->algorithm, ves_descent_sentence(&best->descent));
+    const ves_descent *descent = &best->descent;
+    ves_session_stop(session, ves_descent_spent(descent) ? VES_ENDED_BUDGET : VES_ENDED_DONE, "%s: %s",
+                     options->algorithm, ves_descent_sentence(descent));
 }
 
 static ves_status collect(polish *p)

@@ -15,17 +15,19 @@ static ves_status work(ves_session *session)
     VES_TRY(ves_search_begin(session));
     if (session->fault) return session->fault;
     if (!session->ends) {
-        ves_session_stop(session, "no candidate could be measured");
+        ves_session_stop(session, VES_ENDED_DONE, "no candidate could be measured");
         return VES_OK;
     }
     for (int k = 0; k < session->stages; k++) {
         if (ves_session_over(session)) return session->fault;
         long budget = ves_search_share(session, k);
-        if (budget > 0)
+        if (budget > 0) {
             VES_TRY(stage_run(session, k, budget));
-        else
-            ves_session_note(session, "the budget (%ld in all) left no evaluations for stage %d",
-                             session->budget, k + 1);
+            continue;
+        }
+        session->ending = VES_ENDED_BUDGET;
+        ves_session_note(session, "the budget (%ld in all) left no evaluations for stage %d", session->budget,
+                         k + 1);
     }
     return session->fault;
 }

@@ -16,6 +16,7 @@ ves_status ves_session_init(ves_session *session, const ves_search_problem *prob
     session->tight = 1e-4 * session->tolerance;
     session->seen = (ves_verdict){.status = VES_NO_NUMBER, .value = HUGE_VAL, .violation = HUGE_VAL};
     session->temperature = session->acceptance = NAN;
+    session->ending = VES_ENDED_BUDGET;
     session->stop = "the budget allows no more than the start";
     session->stage_name = "start";
     atomic_init(&session->stopped, false);
@@ -103,12 +104,13 @@ void ves_session_note(ves_session *session, const char *format, ...)
         session->fault = VES_MEMORY;
 }
 
-void ves_session_stop(ves_session *session, const char *format, ...)
+void ves_session_stop(ves_session *session, ves_ending ending, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
     const char *text = sentence(session, format, list);
     va_end(list);
+    session->ending = ending;
     if (text)
         session->stop = text;
     else

@@ -84,6 +84,7 @@ struct ves_session {
 
     int notes;
     const char *note[VES_NOTES];
+    ves_ending ending;
     const char *stop;
     int temperatures, temperature_room;
     ves_temperature *temperature_log;
@@ -105,9 +106,11 @@ bool ves_session_better_at(const ves_session *session, double price, const ves_v
                            const ves_verdict *b);
 void ves_session_sort(const ves_session *session, ves_end *end, int count);
 
-/* Adds a sentence (printf format); too many: dropped. Out of memory is a fault of the session. */
+/* Adds a sentence (printf format); too many: dropped. Out of memory is a fault of the session. What is told
+ * last of why it stops holds. */
 void ves_session_note(ves_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void ves_session_stop(ves_session *session, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ves_session_stop(ves_session *session, ves_ending ending, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 void ves_session_progress(ves_session *session);
 
 /* Offers members' bests to the population: the best of them that is better than the population's and passes

@@ -1,33 +1,13 @@
-/* Design: one candidate with everything that is measured on it, in the signs and units of the problem file.
- */
+/* Designs that are kept. */
 #ifndef VES_STUDY_DESIGN_H
 #define VES_STUDY_DESIGN_H
 
+#include "base/arena.h"
 #include "problem/problem.h"
-#include "surface/figure.h"
 #include "vesica/plan.h"
 
-/* One constraint: its two sides in SI units, and how far it is violated, relative to its size. */
-typedef struct ves_sides {
-    double value, limit, violation;
-} ves_sides;
-
-typedef struct ves_design {
-    ves_status status; /* positive: it cannot be measured; numbers are NAN */
-    const double *x;   /* [variables] */
-    double *slot;      /* [slots] variables, unknown, parameters */
-    double *measure;   /* [measures] */
-    ves_sides *side;   /* [constraints] */
-    double objective;  /* as the file means it; NAN: the file has none */
-    double violation;  /* the largest of the constraints, 0 without any */
-    double similarity; /* factor of scale: */
-    bool feasible;     /* every violation is within its tolerance */
-} ves_design;
-
-/* Takes the arrays of a design from the arena. */
-ves_status ves_design_init(const ves_problem *problem, ves_arena *arena, ves_design *design);
-
-/* Measures it at x (copied). Negative only for faults. */
+/* Measures the design at x, or at the start when x is NULL, and keeps it in the arena. Negative only for
+ * faults. */
 ves_status ves_design_measure(ves_plan *plan, const ves_problem *problem, const double *x, int level,
                               ves_arena *arena, ves_design *design);
 

@@ -37,7 +37,7 @@ bool ves_study_idle(ves_plan *plan, const ves_problem *p, ves_arena *arena, bool
                            .gradient = ves_arena_take(arena, n, sizeof(double)),
                            .jacobian = ves_arena_take(arena, n * m, sizeof(double))};
     if (!x || !verdict.constraint || !verdict.gradient || !verdict.jacobian) return false;
-    if (!ves_study_gradients(p)) return false;
+    if (!ves_plan_search(&plan, 1).gradients) return false;
     for (int k = 0; k < p->variables; k++) idle[k] = true;
     int seen = 0;
     for (int t = 0; t < TRIES && seen < ENOUGH; t++) {

@@ -10,8 +10,9 @@
 enum { MESSAGE = 4096 };
 
 typedef struct keeper {
-    ves_run *run;
+    const ves_run *run;
     ves_plan *plan;
+    ves_arena *arena; /* for paths */
     ves_diag *diag;
 } keeper;
 
@@ -25,7 +26,7 @@ static ves_status text_write(const keeper *k, const char *name, const char *endi
                              void (*fill)(const keeper *, FILE *))
 {
     ves_file file;
-    char *path = ves_folder_path(k->run->folder, name, &k->run->arena);
+    char *path = ves_folder_path(k->run->folder, name, k->arena);
     if (!path) return no_memory(k->diag);
     VES_TRY(ves_file_begin(&file, path, ending, k->diag));
     fill(k, file.out);
@@ -95,22 +96,22 @@ static void fill_log(const keeper *k, FILE *out)
     line(out, "stopped: ", run->stop);
 }
 
-ves_status ves_keep_problem(ves_run *run, ves_diag *diag)
+ves_status ves_keep_problem(const ves_run *run, ves_arena *arena, ves_diag *diag)
 {
-    keeper k = {.run = run, .diag = diag};
+    keeper k = {.run = run, .arena = arena, .diag = diag};
     return text_write(&k, "problem.yaml", "yaml", fill_problem);
 }
 
 static ves_status shape_write(const keeper *k, ves_figure *figure, const char *name)
 {
-    char *path = ves_folder_path(k->run->folder, name, &k->run->arena);
+    char *path = ves_folder_path(k->run->folder, name, k->arena);
     return path ? ves_format_find("vtp")->write(figure, path, k->diag) : no_memory(k->diag);
 }
 
 static ves_status picture_write(const keeper *k, ves_figure *figure)
 {
     ves_view view = ves_view_default();
-    char *path = ves_folder_path(k->run->folder, "best.png", &k->run->arena);
+    char *path = ves_folder_path(k->run->folder, "best.png", k->arena);
     return path ? ves_picture_write(figure, &view, path, k->diag) : no_memory(k->diag);
 }
 
@@ -119,17 +120,16 @@ static ves_status figure_write(const keeper *k, const ves_design *design, const 
 {
     ves_figure *figure;
     if (design->status != VES_OK) return VES_OK;
-    ves_status status = ves_plan_figure(k->plan, design->x, 0, 0, &figure, k->diag);
-    if (status != VES_OK) return status == VES_MEMORY ? no_memory(k->diag) : status;
-    status = shape_write(k, figure, name);
+    VES_TRY(ves_plan_figure(k->plan, design->x, 0, 0, &figure, k->diag));
+    ves_status status = shape_write(k, figure, name);
     if (status == VES_OK && picture) status = picture_write(k, figure);
     ves_figure_destroy(figure);
     return status;
 }
 
-ves_status ves_keep_result(ves_run *run, ves_plan *plan, ves_diag *diag)
+ves_status ves_keep_result(const ves_run *run, ves_plan *plan, ves_arena *arena, ves_diag *diag)
 {
-    keeper k = {run, plan, diag};
+    keeper k = {run, plan, arena, diag};
     ves_status status[] = {
         text_write(&k, "result.json", "json", fill_result),
         text_write(&k, "times.json", "json", fill_times),

@@ -120,7 +120,7 @@ static void optima(const ves_run *run, ves_json *json)
 {
     ves_json_array(json, "optima");
     for (int k = 0; k < run->optima; k++) {
-        const ves_run_optimum *o = &run->optimum[k];
+        const ves_optimum *o = &run->optimum[k];
         ves_json_object(json, NULL);
         ves_json_number(json, "value", o->value);
         ves_json_number(json, "violation", o->violation);
@@ -150,8 +150,8 @@ static void sentences(const ves_run *run, ves_json *json)
 static void statistics(const ves_run *run, ves_json *json)
 {
     ves_json_object(json, "failed");
-    for (int k = 0; k < VES_RUN_KINDS; k++)
-        if (run->failed[k]) ves_json_integer(json, ves_status_text((ves_status)k), run->failed[k]);
+    for (int k = 0; k < run->failures; k++)
+        ves_json_integer(json, ves_status_text(run->failure[k].status), run->failure[k].count);
     ves_json_end(json, '}');
     ves_json_array(json, "temperatures");
     for (int k = 0; k < run->temperatures; k++) {

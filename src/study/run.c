@@ -10,7 +10,7 @@
 #include "study/keep.h"
 #include "study/trace.h"
 
-enum { JOBS_MOST = 256, SENTENCE = 200 };
+enum { JOBS_MOST = 256, STATUS_KINDS = 64, SENTENCE = 200 };
 
 /* A grid that changes a measure by more than this is worth a word. */
 static const double UNSETTLED = 1e-6;
@@ -22,12 +22,14 @@ typedef struct study {
     const ves_run_hooks *hooks;
     ves_diag *diag;
     ves_run *run;
-    ves_plan **plan; /* [run->jobs] */
+    ves_arena *arena; /* of the run */
+    ves_plan **plan;  /* [run->jobs] */
     ves_search_options search;
     ves_tracer tracer;
     double wall, cpu, mark; /* clocks: the beginning; the stage's beginning */
     int stage;
-    ves_status files; /* the first file that could not be written */
+    long failed[STATUS_KINDS]; /* candidates that could not be measured, by status */
+    ves_status files;          /* the first file that could not be written */
 } study;
 
 static ves_status complain(ves_diag *diag, ves_status status)
@@ -39,8 +41,8 @@ static ves_status complain(ves_diag *diag, ves_status status)
 static ves_status note(study *s, const char *text)
 {
     ves_run *run = s->run;
-    const char **list = ves_arena_take(&run->arena, (size_t)run->notes + 1, sizeof *list);
-    char *copy = ves_arena_text(&run->arena, text, strlen(text));
+    const char **list = ves_arena_take(s->arena, (size_t)run->notes + 1, sizeof *list);
+    char *copy = ves_arena_text(s->arena, text, strlen(text));
     if (!list || !copy) return VES_MEMORY;
     for (int k = 0; k < run->notes; k++) list[k] = run->note[k];
     list[run->notes++] = copy;
@@ -73,49 +75,6 @@ double ves_study_clock(void)
 }
 
 /* --- making ready --- */
-
-static bool judged(const ves_problem *p, int measure)
-{
-    bool used = p->scale && p->scale->measure == measure;
-    if (p->objective) used = used || ves_formula_uses_argument(p->objective, measure);
-    if (p->solve)
-        used = used || ves_formula_uses_argument(p->solve->left, measure) ||
-               ves_formula_uses_argument(p->solve->right, measure);
-    for (int k = 0; k < p->constraints && !used; k++)
-        used = ves_formula_uses_argument(p->constraint[k].left, measure) ||
-               ves_formula_uses_argument(p->constraint[k].right, measure);
-    return used;
-}
-
-bool ves_study_gradients(const ves_problem *problem)
-{
-    for (int k = 0; k < problem->measures; k++)
-        if (judged(problem, k) && !problem->measure[k].measure->gradient) return false;
-    return true;
-}
-
-ves_status ves_study_quadrature(const ves_problem *problem, int quadrature[2], double *change, ves_diag *diag)
-{
-    *change = NAN;
-    memcpy(quadrature, problem->quadrature, sizeof problem->quadrature);
-    if (quadrature[0] > 0 && quadrature[1] > 0) return VES_OK;
-    int chosen[2];
-    ves_status status = ves_plan_quadrature(problem, chosen, change, NULL); /* it tries many plans: */
-    for (int d = 0; d < 2; d++)
-        if (quadrature[d] <= 0) quadrature[d] = chosen[d];
-    if (status != VES_OK && status != VES_MEMORY) return VES_OK; /* the one that is used will speak */
-    return status == VES_OK ? VES_OK : complain(diag, status);
-}
-
-ves_status ves_study_plan(const ves_problem *problem, const int quadrature[2], ves_plan **plan,
-                          ves_diag *diag)
-{
-    ves_plan_options options = {.quadrature = {quadrature[0], quadrature[1]}};
-    int before = ves_diag_errors(diag);
-    ves_status status = ves_plan_create(problem, &options, plan, diag);
-    if (status < VES_OK && ves_diag_errors(diag) == before) complain(diag, status);
-    return status < VES_OK ? status : VES_OK;
-}
 
 static int machine_threads(void)
 {
@@ -153,30 +112,28 @@ static void settle(study *s)
 static ves_status plans_make(study *s)
 {
     ves_run *run = s->run;
-    s->plan = ves_arena_take(&run->arena, (size_t)run->jobs, sizeof(ves_plan *));
+    s->plan = ves_arena_take(s->arena, (size_t)run->jobs, sizeof *s->plan);
     if (!s->plan) return complain(s->diag, VES_MEMORY);
-    VES_TRY(ves_study_quadrature(s->problem, run->quadrature, &run->change, s->diag));
-    VES_TRY(ves_study_plan(s->problem, run->quadrature, &s->plan[0], s->diag));
-    for (int k = 1; k < run->jobs; k++) {
-        ves_plan_options options = {.quadrature = {run->quadrature[0], run->quadrature[1]}};
-        ves_status status =
-            ves_plan_create(s->problem, &options, &s->plan[k], NULL); /* the first has spoken */
-        if (status < VES_OK) return complain(s->diag, status);
+    VES_TRY(ves_plan_create(s->problem, NULL, &s->plan[0], s->diag));
+    run->change = ves_plan_grid(s->plan[0], run->quadrature);
+    const ves_plan_options same = {{run->quadrature[0], run->quadrature[1]}};
+    for (int k = 1; k < run->jobs; k++) { /* the first has spoken */
+        ves_status status = ves_plan_create(s->problem, &same, &s->plan[k], NULL);
+        if (status != VES_OK) return complain(s->diag, status);
     }
     return VES_OK;
 }
 
 static ves_status measure(study *s, const double *x, int level, ves_design *design)
 {
-    ves_status status = ves_design_measure(s->plan[0], s->problem, x, level, &s->run->arena, design);
+    ves_status status = ves_design_measure(s->plan[0], s->problem, x, level, s->arena, design);
     return status == VES_OK ? VES_OK : complain(s->diag, status);
 }
 
 static ves_status start_measure(study *s)
 {
     ves_run *run = s->run;
-    if (ves_design_init(s->problem, &run->arena, &run->start) != VES_OK) return complain(s->diag, VES_MEMORY);
-    VES_TRY(measure(s, run->start.x, 0, &run->start));
+    VES_TRY(measure(s, NULL, 0, &run->start));
     char text[SENTENCE];
     ves_status status = run->start.status;
     if (status != VES_OK) {
@@ -200,14 +157,14 @@ static ves_status idle_find(study *s)
 {
     const ves_problem *p = s->problem;
     size_t n = (size_t)p->variables;
-    bool *idle = ves_arena_take(&s->run->arena, n, sizeof *idle);
+    bool *idle = ves_arena_take(s->arena, n, sizeof *idle);
     if (!idle) return complain(s->diag, VES_MEMORY);
     s->run->idle = idle;
-    if (!ves_study_idle(s->plan[0], p, &s->run->arena, idle)) memset(idle, 0, n * sizeof *idle);
+    if (!ves_study_idle(s->plan[0], p, s->arena, idle)) memset(idle, 0, n * sizeof *idle);
     char *text = NULL;
     for (int k = 0; k < p->variables; k++) {
         if (!idle[k]) continue;
-        text = ves_arena_format(&s->run->arena, "%s%s%s", text ? text : "nothing that is judged depends on ",
+        text = ves_arena_format(s->arena, "%s%s%s", text ? text : "nothing that is judged depends on ",
                                 text ? ", " : "", p->variable[k].name);
         if (!text) return complain(s->diag, VES_MEMORY);
     }
@@ -222,31 +179,27 @@ static void folder_begin(study *s)
     ves_run *run = s->run;
     const char *name = o->name ? o->name : s->problem->name;
     if (!o->files) return;
-    s->files =
-        o->out ? ves_folder_make(o->out, &run->arena, &run->folder, s->diag)
-               : ves_folder_number(o->parent ? o->parent : "runs", name, &run->arena, &run->folder, s->diag);
+    char *folder = NULL;
+    s->files = o->out ? ves_folder_make(o->out, s->arena, &folder, s->diag)
+                      : ves_folder_number(o->parent ? o->parent : "runs", name, s->arena, &folder, s->diag);
+    run->folder = folder;
     if (s->files != VES_OK) return;
-    s->files = ves_keep_problem(run, s->diag);
+    s->files = ves_keep_problem(run, s->arena, s->diag);
     s->tracer = (ves_tracer){.problem = s->problem, .which = o->trace, .diag = s->diag};
-    char *path = ves_folder_path(run->folder, "trace.jsonl", &run->arena);
+    char *path = ves_folder_path(run->folder, "trace.jsonl", s->arena);
     if (s->files != VES_OK || !run->searched || o->trace == VES_TRACE_NONE) return;
-    s->files = path ? ves_tracer_begin(&s->tracer, path, &run->arena) : complain(s->diag, VES_MEMORY);
+    s->files = path ? ves_tracer_begin(&s->tracer, path, s->arena) : complain(s->diag, VES_MEMORY);
 }
 
 static void folder_end(study *s)
 {
     if (!s->run->folder) return;
-    ves_status trace = ves_tracer_end(&s->tracer), kept = ves_keep_result(s->run, s->plan[0], s->diag);
+    ves_status trace = ves_tracer_end(&s->tracer),
+               kept = ves_keep_result(s->run, s->plan[0], s->arena, s->diag);
     if (s->files == VES_OK) s->files = trace != VES_OK ? trace : kept;
 }
 
 /* --- the search --- */
-
-static ves_status evaluate(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
-{
-    study *s = data;
-    return ves_plan_evaluate(s->plan[worker], ask, verdict);
-}
 
 /* Stages are timed by the records that they send. */
 static void stage_enter(study *s, int index)
@@ -266,7 +219,7 @@ static void hear_record(void *data, const ves_record *record)
     if (record->stage != s->stage && record->stage >= 0 && record->stage < VES_STAGES)
         stage_enter(s, record->stage);
     s->run->times.stage[s->stage].evaluations++;
-    if (kind > 0 && kind < VES_RUN_KINDS) s->run->failed[kind]++;
+    if (kind > 0 && kind < STATUS_KINDS) s->failed[kind]++;
     ves_tracer_write(&s->tracer, record);
 }
 
@@ -294,62 +247,44 @@ static void stage_names(study *s)
     }
 }
 
-/* The arrays of the search problem, in the run's arena. */
-static ves_status pose(study *s, ves_search_problem *out)
-{
-    const ves_problem *p = s->problem;
-    ves_arena *arena = &s->run->arena;
-    size_t n = (size_t)p->variables, m = (size_t)p->constraints;
-    double *lower = ves_arena_take(arena, n, sizeof *lower), *upper = ves_arena_take(arena, n, sizeof *upper);
-    const char **name = ves_arena_take(arena, n, sizeof *name);
-    bool *equality = ves_arena_take(arena, m, sizeof *equality);
-    if (!lower || !upper || !name || !equality) return VES_MEMORY;
-    for (size_t k = 0; k < n; k++) {
-        lower[k] = p->variable[k].min, upper[k] = p->variable[k].max;
-        name[k] = p->variable[k].name;
-    }
-    for (size_t k = 0; k < m; k++) equality[k] = p->constraint[k].relation == VES_EQUAL;
-    *out = (ves_search_problem){.n = p->variables,
-                                .m = p->constraints,
-                                .lower = lower,
-                                .upper = upper,
-                                .start = s->run->start.x,
-                                .equality = equality,
-                                .tolerance = VES_FEASIBLE,
-                                .gradients = ves_study_gradients(p),
-                                .workers = s->run->jobs,
-                                .evaluate = evaluate,
-                                .data = s,
-                                .name = name};
-    return VES_OK;
-}
-
 static ves_status optima_take(study *s, const ves_search_result *r)
 {
-    ves_run *run = s->run;
-    size_t width = sizeof(double) * (size_t)r->n;
     double sign = s->problem->maximize ? -1 : 1;
-    run->optimum = ves_arena_take(&run->arena, (size_t)r->optima, sizeof *run->optimum);
-    if (!run->optimum) return VES_MEMORY;
+    ves_optimum *optimum = ves_arena_take(s->arena, (size_t)r->optima, sizeof *optimum);
+    if (!optimum) return VES_MEMORY;
     for (int k = 0; k < r->optima; k++) {
-        const ves_optimum *o = &r->optimum[k];
-        double *x = ves_arena_take(&run->arena, (size_t)r->n, sizeof *x);
+        double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
         if (!x) return VES_MEMORY;
-        memcpy(x, o->x, width);
-        run->optimum[k] = (ves_run_optimum){x, sign * o->value, o->violation, o->hits, o->saddle};
+        memcpy(x, r->optimum[k].x, sizeof *x * (size_t)r->n);
+        optimum[k] = r->optimum[k];
+        optimum[k].x = x;
+        optimum[k].value *= sign;
     }
-    run->optima = r->optima;
+    s->run->optimum = optimum;
+    s->run->optima = r->optima;
     return VES_OK;
 }
 
 static ves_status words_take(study *s, const ves_search_result *r)
 {
     ves_run *run = s->run;
-    run->stop = ves_arena_text(&run->arena, r->stop, strlen(r->stop));
-    run->temperature = ves_arena_take(&run->arena, (size_t)r->temperatures, sizeof *run->temperature);
-    if (!run->stop || !run->temperature) return VES_MEMORY;
+    run->stop = ves_arena_text(s->arena, r->stop, strlen(r->stop));
+    if (!run->stop) return VES_MEMORY;
     for (int k = 0; k < r->notes; k++) VES_TRY(note(s, r->note[k]));
-    for (int k = 0; k < r->temperatures; k++) run->temperature[k] = r->temperature[k];
+    return VES_OK;
+}
+
+static ves_status counts_take(study *s, const ves_search_result *r)
+{
+    ves_run *run = s->run;
+    ves_temperature *temperature = ves_arena_take(s->arena, (size_t)r->temperatures, sizeof *temperature);
+    ves_run_failure *failure = ves_arena_take(s->arena, STATUS_KINDS, sizeof *failure);
+    if (!temperature || !failure) return VES_MEMORY;
+    for (int k = 0; k < r->temperatures; k++) temperature[k] = r->temperature[k];
+    for (int k = 0; k < STATUS_KINDS; k++)
+        if (s->failed[k]) failure[run->failures++] = (ves_run_failure){(ves_status)k, s->failed[k]};
+    run->failure = failure;
+    run->temperature = temperature;
     run->temperatures = r->temperatures;
     return VES_OK;
 }
@@ -357,11 +292,12 @@ static ves_status words_take(study *s, const ves_search_result *r)
 static ves_status result_take(study *s, const ves_search_result *r)
 {
     ves_run *run = s->run;
-    run->interrupted = r->status == VES_INTERRUPTED;
+    run->ending = r->ending;
     run->any = r->any;
     run->evaluations = r->evaluations;
     run->gradients = r->gradients;
-    if (words_take(s, r) != VES_OK || optima_take(s, r) != VES_OK) return complain(s->diag, VES_MEMORY);
+    if (words_take(s, r) != VES_OK || counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK)
+        return complain(s->diag, VES_MEMORY);
     VES_TRY(measure(s, r->x, 1, &run->finer));
     VES_TRY(measure(s, r->x, 0, &run->best));
     run->feasible = r->feasible && run->best.status == VES_OK;
@@ -370,10 +306,9 @@ static ves_status result_take(study *s, const ves_search_result *r)
 
 static ves_status search(study *s)
 {
-    ves_search_problem problem;
+    ves_search_problem problem = ves_plan_search(s->plan, s->run->jobs);
     ves_search_result *result = NULL;
     ves_search_hooks hooks = {hear_progress, hear_record, hear_stopped, s};
-    if (pose(s, &problem) != VES_OK) return complain(s->diag, VES_MEMORY);
     stage_names(s);
     s->stage = -1;
     double begun = ves_study_clock();
@@ -428,7 +363,7 @@ static double *expect_arguments(const study *s)
 {
     const ves_run *run = s->run;
     int first = s->problem->measures;
-    double *argument = ves_arena_take(&s->run->arena, (size_t)(first + VES_EXPECT_NAMES), sizeof *argument);
+    double *argument = ves_arena_take(s->arena, (size_t)(first + VES_EXPECT_NAMES), sizeof *argument);
     if (!argument) return NULL;
     if (first) memcpy(argument, run->best.measure, sizeof *argument * (size_t)first);
     argument[first + VES_EXPECT_OBJECTIVE] = run->best.objective;
@@ -449,14 +384,15 @@ static ves_status expect(study *s)
     run->passed = true;
     if (s->options->once) return VES_OK;
     run->expects = test ? p->test_expects : p->expects;
-    run->expect = ves_arena_take(&run->arena, (size_t)run->expects, sizeof *run->expect);
+    ves_run_expect *expect = ves_arena_take(s->arena, (size_t)run->expects, sizeof *expect);
     double *argument = expect_arguments(s);
-    if (!run->expect || !argument) return complain(s->diag, VES_MEMORY);
+    run->expect = expect;
+    if (!expect || !argument) return complain(s->diag, VES_MEMORY);
     for (int k = 0; k < run->expects; k++) {
-        double *room = ves_arena_take(&run->arena, (size_t)ves_formula_room(list[k].formula), sizeof *room);
+        double *room = ves_arena_take(s->arena, (size_t)ves_formula_room(list[k].formula), sizeof *room);
         if (!room) return complain(s->diag, VES_MEMORY);
-        run->expect[k] = (ves_run_expect){list[k].text, holds(s, list[k].formula, argument, room)};
-        run->passed = run->passed && run->expect[k].passed;
+        expect[k] = (ves_run_expect){list[k].text, holds(s, list[k].formula, argument, room)};
+        run->passed = run->passed && expect[k].passed;
     }
     return VES_OK;
 }
@@ -491,27 +427,33 @@ ves_status ves_run_create(const ves_problem *problem, const ves_run_options *opt
                           const ves_run_hooks *hooks, ves_run **out, ves_diag *diag)
 {
     static const ves_run_hooks deaf = {0};
+    static const ves_run_options plain = {0};
     *out = NULL;
-    ves_run *run = ves_memory_take(sizeof *run);
-    if (!run) return complain(diag, VES_MEMORY);
-    study s = {
-        .problem = problem, .options = options, .hooks = hooks ? hooks : &deaf, .diag = diag, .run = run};
+    ves_run_box *box = ves_memory_take(sizeof *box);
+    if (!box) return complain(diag, VES_MEMORY);
+    study s = {.problem = problem,
+               .options = options ? options : &plain,
+               .hooks = hooks ? hooks : &deaf,
+               .diag = diag,
+               .run = &box->run,
+               .arena = &box->arena};
     s.wall = ves_study_clock();
     s.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
     settle(&s);
     ves_status status = work(&s);
     plans_destroy(&s);
     if (status != VES_OK) {
-        ves_run_destroy(run);
+        ves_run_destroy(&box->run);
         return status;
     }
-    *out = run;
+    *out = &box->run;
     return s.files;
 }
 
 void ves_run_destroy(ves_run *run)
 {
     if (!run) return;
-    ves_arena_destroy(&run->arena);
-    ves_memory_free(run);
+    ves_run_box *box = (ves_run_box *)run;
+    ves_arena_destroy(&box->arena);
+    ves_memory_free(box);
 }
