@@ -328,7 +328,7 @@ static void adjoint_make(ves_plan *plan, plan_site *s, const ves_tile *tile, con
     for (int f = 0; f < VES_FIELDS; f++)
         for (int c = 0; c < 3 && tile->fields & 1u << f; c++) {
             bool made = needs & FORM_NEEDS && f != VES_FIELD_X &&
-                        (VES_FIELD_D[f] + VES_FIELD_E[f] == 1 || needs & VES_CURVATURE);
+                        (ves_field_d[f] + ves_field_e[f] == 1 || needs & VES_CURVATURE);
             if (needs & FIELD_NEED[f])
                 tile_take(tile, adjoint_field(&s->adjoint, f)[c], NULL, made, to->at[f * 3 + c]);
             else if (!made)

@@ -93,7 +93,7 @@ static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena
     c->nup = ves_padded(grid->nu);
     c->a_table = NAN;
     for (int f = 0; f < VES_FIELDS; f++)
-        if (chart->fields & 1u << f && VES_FIELD_D[f] >= c->orders) c->orders = VES_FIELD_D[f] + 1;
+        if (chart->fields & 1u << f && ves_field_d[f] >= c->orders) c->orders = ves_field_d[f] + 1;
     long table = ves_weights_size(&p->layout, p->modes, c->nup), rest = 3L * p->conditions * c->nup;
     long mode = 9L * stride(p->modes) * c->nup, tail = p->band - p->modes;
     long residual = tail ? 3L * p->conditions * 3 * grid->nv : 0;
@@ -237,9 +237,9 @@ static void pde_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_pl
             lanes *out = (lanes *)field->at[f * 3 + k];
             for (int j = 0; j < p->conditions; j++) {
                 lanes w =
-                    *(const lanes *)(c->rest + (VES_FIELD_D[f] * p->conditions + j) * c->nup + tile->block);
+                    *(const lanes *)(c->rest + (ves_field_d[f] * p->conditions + j) * c->nup + tile->block);
                 const double *r =
-                    c->residual + (size_t)(((j * 3 + VES_FIELD_E[f]) * 3 + k) * chart->grid->nv);
+                    c->residual + (size_t)(((j * 3 + ves_field_e[f]) * 3 + k) * chart->grid->nv);
                 for (int row = 0; row < tile->rows; row++) out[row] += w * r[tile->row[row]];
             }
         }
@@ -271,8 +271,8 @@ static void pde_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_p
         for (int k = 0; k < 3 && tile->fields & 1u << f; k++) {
             const lanes *in = (const lanes *)adjoint->at[f * 3 + k];
             for (int j = 0; j < p->conditions; j++) {
-                int at = (VES_FIELD_D[f] * p->conditions + j) * c->nup + tile->block;
-                size_t curve = (size_t)(((j * 3 + VES_FIELD_E[f]) * 3 + k) * chart->grid->nv);
+                int at = (ves_field_d[f] * p->conditions + j) * c->nup + tile->block;
+                size_t curve = (size_t)(((j * 3 + ves_field_e[f]) * 3 + k) * chart->grid->nv);
                 lanes w = *(const lanes *)(c->rest + at), carried = {0};
                 for (int row = 0; row < tile->rows; row++) {
                     c->residual_adjoint[curve + (size_t)tile->row[row]] += ves_lanes_sum(in[row] * w);
@@ -391,10 +391,10 @@ static void point_sum(const pde *p, const double *table, const double *rest, int
                 for (int j = 0; j < K; j++) {
                     const double *data = p->data + (j * 3 + k) * width;
                     double value =
-                        n ? data[2 * n - 1] * wave[VES_FIELD_E[f]][0] + data[2 * n] * wave[VES_FIELD_E[f]][1]
-                        : VES_FIELD_E[f] ? 0
+                        n ? data[2 * n - 1] * wave[ves_field_e[f]][0] + data[2 * n] * wave[ves_field_e[f]][1]
+                        : ves_field_e[f] ? 0
                                          : data[0];
-                    out[f][k] += w[(VES_FIELD_D[f] * K + j) * CHUNK + i] * value;
+                    out[f][k] += w[(ves_field_d[f] * K + j) * CHUNK + i] * value;
                 }
     }
 }

@@ -20,8 +20,8 @@ static double inward(const double range[2], double t)
 static double factor(const drawn *d, int f)
 {
     double u = d->u_range[1] - d->u_range[0], v = (d->v_range[1] - d->v_range[0]) / TWO_PI, product = 1;
-    for (int k = 0; k < VES_FIELD_D[f]; k++) product *= u;
-    for (int k = 0; k < VES_FIELD_E[f]; k++) product *= v;
+    for (int k = 0; k < ves_field_d[f]; k++) product *= u;
+    for (int k = 0; k < ves_field_e[f]; k++) product *= v;
     return product;
 }
 

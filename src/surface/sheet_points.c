@@ -136,14 +136,14 @@ static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
     for (int f = 0; f < VES_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             for (int j = 0; j < grid->nv; j++) {
-                const double *row = t->v[VES_FIELD_E[f]] + j * g->columns;
+                const double *row = t->v[ves_field_e[f]] + j * g->columns;
                 for (int r = 0; r < g->rows; r++) {
                     s->room[r] = 0;
                     for (int k = 0; k < g->columns; k++)
                         s->room[r] += row[k] * bound->number[g->points + 3 * (r * g->columns + k) + c];
                 }
                 for (int i = 0; i < grid->nu; i++) {
-                    const double *w = t->u[VES_FIELD_D[f]] + i * g->rows;
+                    const double *w = t->u[ves_field_d[f]] + i * g->rows;
                     double sum = 0;
                     for (int r = 0; r < g->rows; r++) sum += w[r] * s->room[r];
                     s->plane[f][c][j * grid->nu + i] = sum;
@@ -161,11 +161,11 @@ static void gather(ves_chart *chart, const ves_bound *bound, double *number_adjo
     for (int f = 0; f < VES_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             for (int j = 0; j < grid->nv; j++) {
-                const double *row = t->v[VES_FIELD_E[f]] + j * g->columns;
+                const double *row = t->v[ves_field_e[f]] + j * g->columns;
                 for (int r = 0; r < g->rows; r++) {
                     double sum = 0;
                     for (int i = 0; i < grid->nu; i++)
-                        sum += t->u[VES_FIELD_D[f]][i * g->rows + r] * s->adjoint[f][c][j * grid->nu + i];
+                        sum += t->u[ves_field_d[f]][i * g->rows + r] * s->adjoint[f][c][j * grid->nu + i];
                     for (int k = 0; k < g->columns; k++)
                         number_adjoint[g->points + 3 * (r * g->columns + k) + c] += row[k] * sum;
                 }
@@ -185,8 +185,8 @@ static void point(const ves_patch *patch, const ves_bound *bound, int count, con
     double *ru = room, *rv = room + g->rows;
     for (int k = 0; k < count; k++)
         for (int f = 0; f < VES_FIELDS; f++) {
-            spline_row(&g->u, u[k], 1, VES_FIELD_D[f], ru);
-            spline_row(&g->v, v[k] / 6.283185307179586, 6.283185307179586, VES_FIELD_E[f], rv);
+            spline_row(&g->u, u[k], 1, ves_field_d[f], ru);
+            spline_row(&g->v, v[k] / 6.283185307179586, 6.283185307179586, ves_field_e[f], rv);
             for (int c = 0; c < 3; c++) {
                 double sum = 0;
                 for (int r = 0; r < g->rows; r++)

@@ -155,12 +155,12 @@ void ves_synthesis_eval(const ves_synthesis *s, const double *mode, const ves_ti
 {
     for (int f = 0; f < VES_FIELDS; f++) {
         if (!(tile->fields & 1u << f)) continue;
-        int e = VES_FIELD_E[f];
-        const double *m = mode + offset(s, VES_FIELD_D[f], 0, tile);
+        int e = ves_field_e[f];
+        const double *m = mode + offset(s, ves_field_d[f], 0, tile);
         double(*o)[VES_TILE_STRIDE] = &out->at[f * 3];
         if (!s->grid->symmetric)
             for (int c = 0; c < 3; c++)
-                plain_field(s, e, mode + offset(s, VES_FIELD_D[f], c, tile), tile, o[c]);
+                plain_field(s, e, mode + offset(s, ves_field_d[f], c, tile), tile, o[c]);
         else if (e == 1)
             fold_field(s, 1, true, m, tile, o);
         else
@@ -229,9 +229,9 @@ void ves_synthesis_gradient(const ves_synthesis *s, const ves_tile *tile, const 
 {
     for (int f = 0; f < VES_FIELDS; f++) {
         if (!(tile->fields & 1u << f)) continue;
-        int e = VES_FIELD_E[f];
+        int e = ves_field_e[f];
         for (int c = 0; c < 3; c++) {
-            double *m = mode_adjoint + offset(s, VES_FIELD_D[f], c, tile);
+            double *m = mode_adjoint + offset(s, ves_field_d[f], c, tile);
             const double *in = adjoint->at[f * 3 + c];
             if (!s->grid->symmetric)
                 plain_transpose(s, e, in, tile, m);

@@ -1,6 +1,6 @@
 #include "surface/tile.h"
 
-const int VES_FIELD_D[VES_FIELDS] = {0, 1, 0, 2, 1, 0}, VES_FIELD_E[VES_FIELDS] = {0, 0, 1, 0, 1, 2};
+const int ves_field_d[VES_FIELDS] = {0, 1, 0, 2, 1, 0}, ves_field_e[VES_FIELDS] = {0, 0, 1, 0, 1, 2};
 
 /* What is cut along v: quarter rows of a symmetric grid, else rows. */
 static int pieces(const ves_grid *grid)

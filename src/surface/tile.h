@@ -70,7 +70,7 @@ static inline double ves_lanes_sum(ves_lanes x)
 }
 
 /* Which derivative each field is: along u and along v. */
-extern const int VES_FIELD_D[VES_FIELDS], VES_FIELD_E[VES_FIELDS];
+extern const int ves_field_d[VES_FIELDS], ves_field_e[VES_FIELDS];
 
 typedef struct ves_tile {
     int block; /* first node along u */
