@@ -54,6 +54,13 @@ Test(idle, what_a_constraint_reads_is_not_idle)
     expect_idle("minimize: (Dx - 2)^2 + Dy^2\n", "lean side spare ");
 }
 
+/* What is read only far from the start, by a formula or through a parameter, is not idle. */
+Test(idle, what_matters_elsewhere_is_not_idle)
+{
+    expect_idle("minimize: area + max(0, spare - 1.9)\n", "Dy ");
+    expect_idle("parameters: {far: \"max(0, spare - 1.5)\"}\nminimize: area + far\n", "Dy ");
+}
+
 /* A shape that nothing can measure tells nothing. */
 Test(idle, it_is_not_told_where_nothing_can_be_measured)
 {
@@ -72,7 +79,8 @@ Test(idle, the_result_says_so)
                  VES_OK);
     bool said = false;
     for (int k = 0; k < run->notes; k++)
-        said = said || !strcmp(run->note[k], "nothing that is judged depends on Dy, spare");
+        said =
+            said || !strcmp(run->note[k], "Dy, spare: no effect on what is judged, in the designs looked at");
     cr_assert(said && run->idle[1] && run->idle[4] && !run->idle[0]);
     ves_run_destroy(run);
     ves_problem_destroy(p);

@@ -75,7 +75,7 @@ typedef struct ves_run {
     int jobs, quadrature[2];
     double change; /* relative, that the choice of the quadrature left; NAN: it was given */
     ves_design start;
-    const bool *idle;   /* [variables] nothing that is judged depends on it; NULL: nobody looked */
+    const bool *idle;   /* [variables] no effect seen on what is judged; NULL: nobody looked */
     const char *folder; /* NULL: none */
 
     /* The result. */

@@ -123,7 +123,7 @@ static void constraints(const ves_problem *problem, const ves_design *design, FI
 /* What is to be said of a variable at x. */
 static const char *remark(const ves_variable *v, double x, bool idle)
 {
-    if (idle) return "does nothing: no measure that is judged depends on it";
+    if (idle) return "had no effect on what is judged, in the designs looked at";
     double near = AT_LIMIT * (v->max - v->min);
     if (x <= v->min + near) return "at its lower limit: the optimum may lie outside";
     if (x >= v->max - near) return "at its upper limit: the optimum may lie outside";

@@ -5,18 +5,32 @@
 #include "base/random.h"
 #include "study/run.h"
 
-/* Slopes are looked at in a few designs off the start: on the plane of symmetry that a start often lies on, a
- * slope may vanish for another reason. Rounding leaves 1e-16 of the largest slope in one that should be 0. */
-enum { TRIES = 16, ENOUGH = 3 };
+/* Slopes are looked at in a few designs near the start, where most can be measured, and as many anywhere,
+ * because a formula may read a variable in one place and not in another. Never at the start itself: on the
+ * plane of symmetry that it often lies on, a slope may vanish for another reason. Rounding leaves 1e-16 of
+ * the largest slope in one that should be 0. */
+enum { TRIES = 64, ENOUGH = 8 };
 static const double AWAY = 0.1, ROUNDING = 1e-12;
 
-static void step_off(const ves_problem *p, ves_random *random, double *x)
+static void draw(const ves_problem *p, ves_random *random, bool near, double *x)
 {
     for (int k = 0; k < p->variables; k++) {
         const ves_variable *v = &p->variable[k];
-        double to = v->start + AWAY * (v->max - v->min) * (2 * ves_random_uniform(random) - 1);
+        double range = v->max - v->min, part = ves_random_uniform(random);
+        double to = near ? v->start + AWAY * range * (2 * part - 1) : v->min + range * part;
         x[k] = fmin(fmax(to, v->min), v->max);
     }
+}
+
+/* What a goal names is not idle, whatever its slope. */
+static bool named(const ves_problem *p, int slot)
+{
+    if (p->objective && ves_formula_uses_slot(p->objective, slot)) return true;
+    for (int k = 0; k < p->constraints; k++)
+        if (ves_formula_uses_slot(p->constraint[k].left, slot) ||
+            ves_formula_uses_slot(p->constraint[k].right, slot))
+            return true;
+    return false;
 }
 
 /* A variable that moves one output, by more than rounding, over its range is not idle. */
@@ -26,7 +40,8 @@ static void compare(const ves_problem *p, const double *slope, bool *idle)
     for (int k = 0; k < p->variables; k++)
         largest = fmax(largest, fabs(slope[k]) * (p->variable[k].max - p->variable[k].min));
     for (int k = 0; k < p->variables; k++)
-        if (fabs(slope[k]) * (p->variable[k].max - p->variable[k].min) > ROUNDING * largest) idle[k] = false;
+        if (!(fabs(slope[k]) * (p->variable[k].max - p->variable[k].min) <= ROUNDING * largest))
+            idle[k] = false;
 }
 
 bool ves_study_idle(ves_plan *plan, const ves_problem *p, ves_arena *arena, bool *idle)
@@ -38,12 +53,12 @@ bool ves_study_idle(ves_plan *plan, const ves_problem *p, ves_arena *arena, bool
                            .jacobian = ves_arena_take(arena, n * m, sizeof(double))};
     if (!x || !verdict.constraint || !verdict.gradient || !verdict.jacobian) return false;
     if (!ves_plan_search(&plan, 1).gradients) return false;
-    for (int k = 0; k < p->variables; k++) idle[k] = true;
+    for (int k = 0; k < p->variables; k++) idle[k] = !named(p, k);
     int seen = 0;
     for (int t = 0; t < TRIES && seen < ENOUGH; t++) {
         ves_random random = {.step = (uint64_t)t};
         ves_ask ask = {.x = x, .cutoff = HUGE_VAL, .want = VES_WANT_GRADIENT};
-        step_off(p, &random, x);
+        draw(p, &random, t % 2 == 0, x);
         if (ves_plan_evaluate(plan, &ask, &verdict) != VES_OK) return false;
         if (verdict.status != VES_OK) continue;
         if (p->objective) compare(p, verdict.gradient, idle);

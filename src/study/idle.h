@@ -1,4 +1,4 @@
-/* Idle variables: those on which nothing that is judged depends, such as the dilation of a circle along its
+/* Idle variables: those that nothing judged was seen to depend on, such as the dilation of a circle along its
  * own axis. A search spends evaluations on them and a reader takes their values for a result: both should
  * know. */
 #ifndef VES_STUDY_IDLE_H
@@ -7,7 +7,7 @@
 #include "problem/problem.h"
 #include "vesica/plan.h"
 
-/* idle: [variables], filled. false: it cannot be told, because too few designs near the start can be measured
+/* idle: [variables], filled. false: it cannot be told, because too few designs can be measured
  * or a measure has no gradient. Takes from the arena. test  a circle's own axis; a saddle is not idle */
 bool ves_study_idle(ves_plan *plan, const ves_problem *problem, ves_arena *arena, bool *idle);
 

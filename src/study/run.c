@@ -152,7 +152,7 @@ static ves_status start_measure(study *s)
     return warn(s, VES_COARSE, text);
 }
 
-/* Says which variables do nothing. */
+/* Says which variables seem to do nothing. */
 static ves_status idle_find(study *s)
 {
     const ves_problem *p = s->problem;
@@ -164,11 +164,12 @@ static ves_status idle_find(study *s)
     char *text = NULL;
     for (int k = 0; k < p->variables; k++) {
         if (!idle[k]) continue;
-        text = ves_arena_format(s->arena, "%s%s%s", text ? text : "nothing that is judged depends on ",
-                                text ? ", " : "", p->variable[k].name);
+        text = ves_arena_format(s->arena, "%s%s%s", text ? text : "", text ? ", " : "", p->variable[k].name);
         if (!text) return complain(s->diag, VES_MEMORY);
     }
-    return text ? keep_note(s, text) : VES_OK;
+    if (!text) return VES_OK;
+    text = ves_arena_format(s->arena, "%s: no effect on what is judged, in the designs looked at", text);
+    return text ? keep_note(s, text) : complain(s->diag, VES_MEMORY);
 }
 
 /* --- the folder: a disk that cannot be written does not stop the search --- */
