@@ -81,6 +81,8 @@ Test(idle, the_result_says_so)
     for (int k = 0; k < run->notes; k++)
         said =
             said || !strcmp(run->note[k], "Dy, spare: no effect on what is judged, in the designs looked at");
+    cr_assert(run->best.x[1] == 1 && run->best.x[4] == 1 && run->best.x[0] != 1,
+              "what does nothing stays at its start");
     cr_assert(said && run->idle[1] && run->idle[4] && !run->idle[0]);
     ves_run_destroy(run);
     ves_problem_destroy(p);

@@ -361,8 +361,8 @@ Test(study, a_start_whose_root_lies_outside_is_told_with_its_place)
         &(ves_run_options){.once = true}, NULL);
     cr_assert(t.status == VES_OK && t.run->start.status == VES_OUTSIDE);
     cr_expect(said(t.diag,
-                   "test.yaml:8:34: warning: the start design cannot be measured: \"a\" must be >= 0, got "
-                   "-0.25, with h = 0.25"));
+                   "test.yaml:8:34: warning: the start design cannot be measured: \"a\" must be in [0, "
+                   "1000000], got -0.25, with h = 0.25"));
     finish(&t);
 }
 

@@ -48,7 +48,7 @@ static const ves_entry curve[] = {
 
 static const ves_entry operator_keys[] = {
     {{"power", VES_COUNT, .required = true, .min = 1, .max = 2, .about = "N of (d_uu + a^2 d_vv)^N: 1 needs two conditions, 2 needs four"}, "power: 2", NULL},
-    {{"a", VES_NUMBER, .unit = "1", .min = 0, .max = HUGE_VAL, .fallback = 1, .about = "smoothing parameter: how fast the ends are forgotten inside; 0 is straight or cubic in u"}, "a: 0.925", NULL},
+    {{"a", VES_NUMBER, .unit = "1", .min = 0, .max = 1e6, .fallback = 1, .about = "smoothing parameter: how fast the ends are forgotten inside; 0 is straight or cubic in u"}, "a: 0.925", NULL},
     LATER("coefficients", "operators with general coefficients"),
     LATER("x", "an operator of its own for each coordinate"),
     LATER("y", "an operator of its own for each coordinate"),

@@ -67,3 +67,23 @@ bool ves_study_idle(ves_plan *plan, const ves_problem *p, ves_arena *arena, bool
     }
     return seen == ENOUGH;
 }
+
+static bool same(double a, double b)
+{
+    return fabs(a - b) <= ROUNDING * fmax(fabs(a), fabs(b));
+}
+
+void ves_study_rest(ves_plan *plan, const ves_problem *p, const bool *idle, ves_arena *arena, double *x)
+{
+    size_t n = (size_t)p->variables;
+    double *y = ves_arena_take(arena, n, sizeof *y);
+    ves_verdict before = {0}, after = {0};
+    ves_ask ask = {.x = x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
+    if (!y || ves_plan_evaluate(plan, &ask, &before) != VES_OK) return;
+    for (size_t k = 0; k < n; k++) y[k] = idle[k] ? p->variable[k].start : x[k];
+    ask.x = y;
+    if (ves_plan_evaluate(plan, &ask, &after) != VES_OK || after.status != before.status) return;
+    if (after.status != VES_OK || !same(after.value, before.value)) return;
+    if (!same(after.violation, before.violation) && after.violation > before.violation) return;
+    for (size_t k = 0; k < n; k++) x[k] = y[k];
+}

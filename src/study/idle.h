@@ -11,4 +11,9 @@
  * or a measure has no gradient. Takes from the arena. test  a circle's own axis; a saddle is not idle */
 bool ves_study_idle(ves_plan *plan, const ves_problem *problem, ves_arena *arena, bool *idle);
 
+/* Puts idle variables of a proved design back to their start, where a search has left random values that mean
+ * nothing: if value, violation and proof stay what they are; else x is left alone. */
+void ves_study_rest(ves_plan *plan, const ves_problem *problem, const bool *idle, ves_arena *arena,
+                    double *x);
+
 #endif

@@ -248,6 +248,17 @@ static void stage_names(study *s)
     }
 }
 
+/* Variables that do nothing go back to their start. */
+static void rest(study *s, double *x)
+{
+    const bool *idle = s->run->idle;
+    for (int k = 0; k < s->problem->variables; k++)
+        if (idle && idle[k]) {
+            ves_study_rest(s->plan[0], s->problem, idle, s->arena, x);
+            return;
+        }
+}
+
 static ves_status optima_take(study *s, const ves_search_result *r)
 {
     double sign = s->problem->maximize ? -1 : 1;
@@ -257,6 +268,7 @@ static ves_status optima_take(study *s, const ves_search_result *r)
         double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
         if (!x) return VES_MEMORY;
         memcpy(x, r->optimum[k].x, sizeof *x * (size_t)r->n);
+        rest(s, x);
         optimum[k] = r->optimum[k];
         optimum[k].x = x;
         optimum[k].value *= sign;
@@ -299,8 +311,12 @@ static ves_status result_take(study *s, const ves_search_result *r)
     run->gradients = r->gradients;
     if (words_take(s, r) != VES_OK || counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK)
         return complain(s->diag, VES_MEMORY);
-    VES_TRY(measure(s, r->x, 1, &run->finer));
-    VES_TRY(measure(s, r->x, 0, &run->best));
+    double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
+    if (!x) return complain(s->diag, VES_MEMORY);
+    memcpy(x, r->x, sizeof *x * (size_t)r->n);
+    rest(s, x);
+    VES_TRY(measure(s, x, 1, &run->finer));
+    VES_TRY(measure(s, x, 0, &run->best));
     run->feasible = r->feasible && run->best.status == VES_OK;
     return VES_OK;
 }

@@ -279,7 +279,7 @@ HOT void combine(const ves_layout *layout, const places *p, int N, double lam, d
     row_of matrix;
     double derivative[K][K];
     if (!conditions(layout, p, N, lam, matrix, weight_lam ? derivative : NULL)) {
-        /* ruled out by ves_layout_check; never leave rubbish behind */
+        /* ruled out by ves_layout_check and the range of a; never leave rubbish behind */
         memset(weight, 0, sizeof(double) * (size_t)(3 * n * nu));
         if (weight_lam) memset(weight_lam, 0, sizeof(double) * (size_t)(3 * n * nu));
         return;
