@@ -83,8 +83,7 @@ static double distance(const ves_figure_patch *p, double *const plane[3], int a,
     return hypot(hypot(plane[0][a] - plane[0][b], plane[1][a] - plane[1][b]), plane[2][a] - plane[2][b]);
 }
 
-/* --- sheets that meet themselves
- * ------------------------------------------------------------------------------------------------ */
+/* --- sheets that meet themselves --- */
 
 #define RING(turn, more)                                                                                     \
     "vesica: 1\nvariables: {R: [1.5, 2, 3], t: [-3, 1.234, 3]}\npatches: {ring: {surface: {formula: "        \
@@ -194,9 +193,7 @@ Test(figure, what_meets_by_chance_is_not_joined)
     bed_clear(&b);
 }
 
-/* --- caps
- * ------------------------------------------------------------------------------------------------------------------------
- */
+/* --- caps --- */
 
 /* Rims that their middle does not see whole: a banana lying flat, and a bent one. */
 #define BANANA(z, end)                                                                                       \
@@ -240,9 +237,7 @@ Test(figure, bent_caps_are_the_fans_that_are_measured)
     bed_clear(&b);
 }
 
-/* --- poles
- * -----------------------------------------------------------------------------------------------------------------------
- */
+/* --- poles --- */
 
 static void check_near(const char *what, double got, double want, double tolerance)
 {
@@ -296,8 +291,7 @@ Test(figure, blunt_rims_and_sharp_tips_are_finite)
     bed_clear(&b);
 }
 
-/* --- rings whose axis varies
- * ---------------------------------------------------------------------------------------------------- */
+/* --- rings whose axis varies --- */
 
 /* A tube between an ellipse that stays and one whose whole axis varies: what it is at x does not depend on
  * where the search began, be it on the other side of a change of nearest coordinate axis, or opposite to it.
@@ -326,8 +320,7 @@ Test(figure, the_same_numbers_give_the_same_shape_whatever_the_start)
     }
 }
 
-/* --- which way a shape faces
- * ---------------------------------------------------------------------------------------------------- */
+/* --- which way a shape faces --- */
 
 /* Three formulas of a point, each moved by  m X + t. */
 static void move(char *out, size_t room, const char *const f[3], const double m[3][3], const double t[3])

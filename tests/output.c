@@ -45,8 +45,7 @@ Test(output, formats_are_listed_sorted_and_found)
     cr_assert(ves_format_find("stp") == NULL);
 }
 
-/* --- meshes, read again by small parsers
- * ------------------------------------------------------------------------ */
+/* --- meshes, read again by small parsers --- */
 
 /* Each edge must be met once in each direction. */
 static int open_edges(const float *corner, int triangles)
@@ -185,8 +184,7 @@ Test(output, obj_off_and_ply_give_back_every_bit)
     clean();
 }
 
-/* --- VTP
- * ------------------------------------------------------------------------------------------------------- */
+/* --- VTP --- */
 
 /* The block that a DataArray of this name points to; checks its length. */
 static const char *block(const char *data, const char *name, size_t bytes)
@@ -341,8 +339,7 @@ Test(output, csv_gives_back_every_number)
     clean();
 }
 
-/* --- files that cannot be written
- * -------------------------------------------------------------------------------- */
+/* --- files that cannot be written --- */
 
 Test(output, folders_that_are_not_there_are_told)
 {

@@ -16,8 +16,7 @@
 #include "output/output.h"
 #include "vesica/search.h"
 
-/* --- JSON
- * -------------------------------------------------------------------------------------------------------- */
+/* --- JSON --- */
 
 static const char *read_all(FILE *file)
 {
@@ -119,8 +118,7 @@ Test(json, numbers_read_back_exactly)
     fclose(file);
 }
 
-/* --- progress
- * ---------------------------------------------------------------------------------------------------- */
+/* --- progress --- */
 
 static ves_progress state(int stage, const char *name, long evaluations)
 {

@@ -47,8 +47,7 @@ static ves_verdict judged(const bed *b, const double *x, unsigned want, double c
     "patches: {wall: {operator: {power: 1, a: 1.1}, conditions: [{u: 0, position: p}, {u: 1, position: "     \
     "q}]}}\n" rest
 
-/* --- measures of a plugin
- * ---------------------------------------------------------------------------------------------------- */
+/* --- measures of a plugin --- */
 
 /* The integral of |Xuu|^2 + Xuv . Xvv: area and all second derivatives, but no curvature. */
 static ves_status stretch_eval(const ves_measure_input *in, double *value)
@@ -188,9 +187,7 @@ Test(verdicts, a_measure_may_hold_a_state_for_each_plan_and_level)
     cr_expect_eq(released, 2);
 }
 
-/* --- verdicts
- * ------------------------------------------------------------------------------------------------------------------
- */
+/* --- verdicts --- */
 
 /* (area - A0)^2 is 0 at its best: the two grids agree in the area, and that is what counts. */
 Test(verdicts, an_objective_that_vanishes_can_be_proved)
@@ -328,9 +325,7 @@ Test(verdicts, levels_that_are_not_there_are_refused)
     bed_clear(&b);
 }
 
-/* --- grids
- * ---------------------------------------------------------------------------------------------------------------------
- */
+/* --- grids --- */
 
 /* Sixty waves seen by sixteen nodes look slow: the grid must be able to see them before it may be content. */
 Test(verdicts, the_chosen_grid_sees_the_modes)

@@ -219,8 +219,7 @@ static void piece_add(const maker *m, int i, int j, int a, int b)
     scene->pieces++;
 }
 
-/* --- caps
- * -------------------------------------------------------------------------------------------------- */
+/* --- caps --- */
 
 /* A point of a triangle: s from its last corner to the opposite side, t along that side. The middle of a fan
  * is its last corner. */

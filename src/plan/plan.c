@@ -3,8 +3,7 @@
 
 #include "plan/inside.h"
 
-/* --- what each program runs
- * ---------------------------------------------------------------------------------------------------- */
+/* --- what each program runs --- */
 
 static void runs_add(ves_plan *plan, plan_program which, const ves_formula *formula)
 {
@@ -46,9 +45,7 @@ static ves_status runs_make(ves_plan *plan)
     return VES_OK;
 }
 
-/* --- memory
- * ----------------------------------------------------------------------------------------------------------------------
- */
+/* --- memory --- */
 
 static int formula_room(const ves_problem *p)
 {
@@ -108,9 +105,7 @@ static ves_status memory_take(ves_plan *plan)
                : VES_MEMORY;
 }
 
-/* --- the start design
- * ------------------------------------------------------------------------------------------------------------
- */
+/* --- the start design --- */
 
 /* Fills a whole block, also what never varies: at the start, or with every variable in the middle of its
  * range.

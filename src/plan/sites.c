@@ -107,9 +107,7 @@ ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind)
     return planes_take(plan, s);
 }
 
-/* --- sampling
- * ----------------------------------------------------------------------------------------------------------------
- */
+/* --- sampling --- */
 
 static void curve_sample(ves_plan *plan, plan_site *s, unsigned needs)
 {
@@ -249,9 +247,7 @@ int ves_site_look(const ves_measure_input *input, int i, int k, const double u[3
     return site_fill(in->plan, s, s->wants, false) == VES_OK ? index : -1;
 }
 
-/* --- the transpose
- * -----------------------------------------------------------------------------------------------------------
- */
+/* --- the transpose --- */
 
 static bool idle(const plan_site *s)
 {
