@@ -123,7 +123,7 @@ typedef struct ves_measure {
     const char *name;  /* the word in problem files */
     const char *about; /* one line */
     const char *unit;  /* dimension: "m^2"; "1". Files without units ignore it. Of built-in measures alone:
-                          NULL is  that of the POINTWISE key `of`, and a leading * multiplies that: "*m^2" */
+                          NULL is that of the POINTWISE key `of`, and a leading * multiplies that: "*m^2" */
     int degree;   /* of homogeneity: scaling the shape by s scales the measure by s^degree (for exact scale:).
                      VES_NO_DEGREE: it does not scale so, and cannot be used in scale: */
     int cost;     /* 0: like the samples themselves; 1: dear (solves systems): measured last */

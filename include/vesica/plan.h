@@ -85,8 +85,7 @@ void ves_plan_outside(const ves_plan *plan, const char *what, ves_diag *diag);
  *
  * plan[workers]: one for each thread that may ask at once, all of one problem and one grid; the array and the
  * plans must outlive the search. A maximum is the minimum of the negative: result->value has the sign of a
- * verdict, ves_design.objective that of the file. Any member may be changed afterwards: search.start = mine.
- */
+ * verdict, ves_design.objective that of the file. Any member may be changed afterwards: search.start = mine. */
 ves_search_problem ves_plan_search(ves_plan **plan, int workers);
 
 /* What a PDE patch is made of; zero for other kinds. tail: at the design last evaluated. */

@@ -102,8 +102,7 @@ typedef struct ves_run {
 } ves_run;
 
 /* Called from the thread that called ves_run_create, but `stopped` from any. Values have the sign of the
- * file.
- */
+ * file. */
 typedef struct ves_run_hooks {
     void (*begun)(void *data,
                   const ves_run *run); /* all is ready, the search begins: run has no result yet */

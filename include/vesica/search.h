@@ -1,8 +1,9 @@
 /* Search: minimise a callback over a box, with constraints. Knows no geometry and is usable by itself:
  *
- *     ves_search_problem problem = {.n = 2, .lower = lower, .upper = upper, .start = start, .evaluate =
- * mine}; ves_search_options options = ves_search_options_default(); ves_search_result *result; ves_status
- * status = ves_search_run(&problem, &options, NULL, &result);
+ *     ves_search_problem problem = {.n = 2, .lower = lower, .upper = upper, .start = start, .evaluate = mine};
+ *     ves_search_options options = ves_search_options_default();
+ *     ves_search_result *result;
+ *     ves_status status = ves_search_run(&problem, &options, NULL, &result);
  *     ... result->x, result->value ...
  *     ves_search_result_destroy(result);
  *

@@ -43,8 +43,7 @@ typedef struct ves_verdict {
  * Returns true when a is strictly better than b. */
 bool ves_verdict_better(const ves_verdict *a, const ves_verdict *b, double tolerance);
 
-/* The one penalised energy: value + weight * (violation beyond tolerance); HUGE_VAL for a failed candidate.
- */
+/* The one penalised energy: value + weight * (violation beyond tolerance); HUGE_VAL for a failed candidate. */
 double ves_verdict_energy(const ves_verdict *verdict, double weight, double tolerance);
 
 #ifdef __cplusplus

@@ -1,6 +1,6 @@
-/* Random numbers as counters: the value depends on (seed, chain, step, draw) alone, never on who asked before
- * or on which thread. Philox4x32-10 (Salmon et al., SC11) from Random123. test  known answer for zero key and
- * counter; moments */
+/* Random numbers as counters: the value depends on (seed, chain, step, draw) alone, never on who asked
+ * before or on which thread. Philox4x32-10 (Salmon et al., SC11) from Random123.
+ * test  known answer for zero key and counter; moments */
 #ifndef VES_BASE_RANDOM_H
 #define VES_BASE_RANDOM_H
 

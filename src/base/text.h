@@ -18,8 +18,7 @@ int ves_words_find(const char *words, const char *word);
 int ves_words_count(const char *words);
 const char *ves_words_at(const char *words, int index, int *length);
 
-/* The shortest decimal text that reads back as exactly `value`; size >= 32. "inf", "-inf", "nan" for those.
- */
+/* The shortest decimal text that reads back as exactly `value`; size >= 32. "inf", "-inf", "nan" for those. */
 void ves_text_shortest(double value, char buffer[32]);
 
 #endif

@@ -295,8 +295,7 @@ bool ves_unit_read(ves_lexer *lexer, ves_unit *unit)
     return more == 0;
 }
 
-/* 1, 1/m, m s, kg/(m s^2), %: as ves_dim_text writes it and as people do; a blank between units is a product.
- */
+/* 1, 1/m, m s, kg/(m s^2), %: as ves_dim_text writes it and as people do; a blank between units is a product. */
 bool ves_dim_read(const char *text, ves_dim *dim, double *factor)
 {
     ves_unit unit = {.up = 1, .down = 1};

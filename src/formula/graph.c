@@ -34,8 +34,7 @@ static int *place(const ves_graph *graph, const ves_node *node)
     return &graph->bucket[at];
 }
 
-/* Room for twice as many nodes; four buckets a node keep probes short, and leave room for ves_graph_finish.
- */
+/* Room for twice as many nodes; four buckets a node keep probes short, and leave room for ves_graph_finish. */
 static ves_status grow(ves_graph *graph)
 {
     int capacity = graph->capacity ? 2 * graph->capacity : START;

@@ -13,12 +13,10 @@ typedef struct ves_file {
     FILE *out;
 } ves_file;
 
-/* ending: that of the temporary name, for writers that look at it ("vtp"). On failure nothing is left to end.
- */
+/* ending: that of the temporary name, for writers that look at it ("vtp"). On failure nothing is left to end. */
 ves_status ves_file_begin(ves_file *file, const char *path, const char *ending, ves_diag *diag);
 
-/* Ends it: renames when `status` is VES_OK and all was written, else removes it. Returns the first failure.
- */
+/* Ends it: renames when `status` is VES_OK and all was written, else removes it. Returns the first failure. */
 ves_status ves_file_end(ves_file *file, ves_status status, ves_diag *diag);
 
 /* VES_IO with "cannot write PATH: " and the reason (strerror of `error`; 0: unknown). */

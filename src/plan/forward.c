@@ -74,8 +74,7 @@ static ves_status residual(ves_plan *plan, const double *x, int index, double h,
 }
 
 /* A bracketed root by inverse quadratic interpolation, secant or bisection (Brent 1973, ch. 4). It starts
- * from the whole bracket for every candidate: the same x gives the same bits whatever was evaluated before.
- */
+ * from the whole bracket for every candidate: the same x gives the same bits whatever was evaluated before. */
 static ves_status solve(ves_plan *plan, const double *x, int index, double *root)
 {
     const ves_solve *s = plan->problem->solve;

@@ -1,5 +1,4 @@
-/* Levels: the sites that all measures of a problem together read on one grid, and which measure reads which.
- */
+/* Levels: the sites that all measures of a problem together read on one grid, and which measure reads which. */
 #include "plan/inside.h"
 
 static int patches_of(const ves_problem *p, const ves_measure_def *m, int index)

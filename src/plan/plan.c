@@ -108,8 +108,7 @@ static ves_status memory_take(ves_plan *plan)
 /* --- the start design --- */
 
 /* Fills a whole block, also what never varies: at the start, or with every variable in the middle of its
- * range.
- */
+ * range. */
 static void block_fill(ves_plan *plan, bool middle, double *block)
 {
     const ves_problem *p = plan->problem;

@@ -36,8 +36,7 @@ static double change_between(const ves_problem *problem, const double *a, const 
     return worst;
 }
 
-/* Fewer nodes than this cannot see the modes that are solved: their products would be taken for slower ones.
- */
+/* Fewer nodes than this cannot see the modes that are solved: their products would be taken for slower ones. */
 static int resolving(const ves_plan *plan)
 {
     int modes = 0;

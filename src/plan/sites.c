@@ -203,8 +203,7 @@ static bool finite_points(const plan_site *s)
     return isfinite(sum);
 }
 
-/* What a gradient needs of a chart is prepared with it, but of a look, which moves, when it has come to rest.
- */
+/* What a gradient needs of a chart is prepared with it, but of a look, which moves, when it has come to rest. */
 static ves_status site_fill(ves_plan *plan, plan_site *s, unsigned needs, bool gradient)
 {
     bool keep = s->varies && (gradient || s->looked);
@@ -310,8 +309,7 @@ static void form_adjoint_take(const plan_site *s, const ves_tile *tile, ves_form
     tile_take(tile, s->adjoint.K, NULL, false, form->at[VES_FORM_K]);
 }
 
-/* The adjoint of the fields of one tile: what flows back through the forms, and what measures gave directly.
- */
+/* The adjoint of the fields of one tile: what flows back through the forms, and what measures gave directly. */
 static void adjoint_make(ves_plan *plan, plan_site *s, const ves_tile *tile, const ves_tile_planes *field)
 {
     ves_tile_planes *to = plan->field_adjoint;

@@ -1,5 +1,4 @@
-/* After everything is read: the number block as the plan takes it, and a look for names that drive nothing.
- */
+/* After everything is read: the number block as the plan takes it, and a look for names that drive nothing. */
 #include <string.h>
 
 #include "problem/reader.h"

@@ -248,8 +248,7 @@ static ves_status set_variable(const override *o, const ves_node *root, const ve
     return replace(o, old);
 }
 
-/* Can an unknown name be a new key of the file itself: --set seed=3? The reader knows which keys there are.
- */
+/* Can an unknown name be a new key of the file itself: --set seed=3? The reader knows which keys there are. */
 static ves_status set_name(const override *o, const ves_node *root)
 {
     static const char new_keys[] = "title|modes|minimize|maximize|search|seed|quadrature|expect|constraints";

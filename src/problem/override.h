@@ -1,5 +1,4 @@
-/* --set name=value written into the text of a problem file, so that what runs is what the run folder keeps.
- */
+/* --set name=value written into the text of a problem file, so that what runs is what the run folder keeps. */
 #ifndef VES_PROBLEM_OVERRIDE_H
 #define VES_PROBLEM_OVERRIDE_H
 

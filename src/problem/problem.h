@@ -47,8 +47,7 @@ typedef struct ves_solve {
     const ves_formula *left, *right;
 } ves_solve;
 
-/* scale: {equation: MEASURE == formula of slots}: the whole shape is scaled by similarity about the origin.
- */
+/* scale: {equation: MEASURE == formula of slots}: the whole shape is scaled by similarity about the origin. */
 typedef struct ves_scale {
     ves_mark mark;
     int measure;

@@ -7,8 +7,7 @@ enum { LETTERS = 3, AXES = 3 };
 
 static const char letters[] = "TRD", axes[] = "xyz";
 
-/* [min, start, max]  [Ugail 2011, Table 7.2]; there d1Ty and d2Ty are one half of this, towards the inside.
- */
+/* [min, start, max]  [Ugail 2011, Table 7.2]; there d1Ty and d2Ty are one half of this, towards the inside. */
 static const double book[LETTERS][3] = {{-1.2, 0, 1.2}, {-0.8, 0, 0.8}, {0.01, 1, 3}};
 
 /* "T", "Ry": letter and axis (-1: all three). */

@@ -3,11 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Metropolis algorithm                                                                          [Ugail
- * 2011, 7.4.1] accept v after u when E(v) - E(u) <= 0 or e^{-(E(v) - E(u)) / c} > r,  r uniform in (0, 1) E:
- * value + weight * violation. r is drawn before v is measured, so that measuring may stop once v cannot be
- * accepted any more. cost   O(n) and 2 to n + 3 random numbers, no allocation test   Boltzmann distribution
- * (7.2) in a quadratic and in a double well */
+/* Metropolis algorithm [Ugail 2011, 7.4.1]: accept v after u when
+ *     E(v) - E(u) <= 0  or  e^{-(E(v) - E(u)) / c} > r,    r uniform in (0, 1),
+ * E: value + weight * violation. r is drawn before v is measured, so that measuring may stop once v cannot be
+ * accepted any more.
+ * cost  O(n) and 2 to n + 3 random numbers, no allocation
+ * test  Boltzmann distribution (7.2) in a quadratic and in a double well */
 
 static const double growth = 1.25;
 

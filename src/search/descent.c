@@ -293,8 +293,7 @@ static double fair_price(const ves_descent *d)
     return 10 * d->first_scale / flattest;
 }
 
-/* Scales f at u. A restart near a minimum keeps a part of the first scale: there the slopes are all but gone.
- */
+/* Scales f at u. A restart near a minimum keeps a part of the first scale: there the slopes are all but gone. */
 static ves_status rescale(ves_descent *d, const double *u, bool first)
 {
     bool slopes = d->recipe.gradient || (first && d->budget - d->used > 10L * d->session->n);

@@ -2,9 +2,10 @@
 
 #include <math.h>
 
-/* Jacobi's rotations, cyclic by rows (Golub and Van Loan, 8.5). Small eigenvalues of scaled matrices come out
- * with small relative errors, which is what the test for a saddle needs. cost   some 6 to 10 sweeps of 4 n^3
- * test   A v = lambda v, V orthogonal, trace */
+/* Jacobi's rotations, cyclic by rows (Golub and Van Loan, 8.5). Small eigenvalues of scaled matrices come
+ * out with small relative errors, which is what the test for a saddle needs.
+ * cost  some 6 to 10 sweeps of 4 n^3
+ * test  A v = lambda v, V orthogonal, trace */
 
 enum { SWEEPS = 60 };
 

@@ -1,5 +1,4 @@
-/* A point of the search: where, and what it is worth there. Searches work in the unit box u; callers see x.
- */
+/* A point of the search: where, and what it is worth there. Searches work in the unit box u; callers see x. */
 #ifndef VES_SEARCH_POINT_H
 #define VES_SEARCH_POINT_H
 

@@ -5,11 +5,12 @@
 
 #include "search/eigen.h"
 
-/* Hessian of the Lagrangian  L = f + sum_j lambda_j c_j  on what the active walls and constraints leave free
- * (Nocedal and Wright, 12.5). With P the projection along the active gradients, the eigenvalues of P H P are
- * those of the reduced Hessian and zeros. H from central differences of exact gradients: 2 gradients for each
- * free variable. Zero eigenvalues are flat directions (a shape's own symmetries, idle variables), not
- * saddles. test   x^4/4 - x^2/2 + y^2 from (0, 1); a flat valley; saddles on constraints */
+/* Hessian of the Lagrangian  L = f + sum_j lambda_j c_j  on what the active walls and constraints leave
+ * free (Nocedal and Wright, 12.5). With P the projection along the active gradients, the eigenvalues of P
+ * H P are those of the reduced Hessian and zeros. H from central differences of exact gradients: 2
+ * gradients for each free variable. Zero eigenvalues are flat directions (a shape's own symmetries, idle
+ * variables), not saddles.
+ * test  x^4/4 - x^2/2 + y^2 from (0, 1); a flat valley; saddles on constraints */
 
 static const double step = 2e-5;       /* in u: truncation ~ 1e-10, noise of a gradient / 2e-5 */
 static const double near_wall = 1e-9;  /* in u */

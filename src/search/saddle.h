@@ -1,5 +1,4 @@
-/* Second-order check at the end of a descent with gradients: is it a minimum or a saddle, and which way down.
- */
+/* Second-order check at the end of a descent with gradients: is it a minimum or a saddle, and which way down. */
 #ifndef VES_SEARCH_SADDLE_H
 #define VES_SEARCH_SADDLE_H
 
@@ -27,8 +26,7 @@ typedef struct ves_saddle {
 
 bool ves_saddle_create(ves_saddle *saddle, ves_session *session);
 
-/* negative: there is a direction of negative curvature at the point, clear of the noise of the differences.
- */
+/* negative: there is a direction of negative curvature at the point, clear of the noise of the differences. */
 ves_status ves_saddle_check(ves_saddle *saddle, ves_descent *descent, const ves_point *point, bool *negative);
 
 /* Steps both ways along it; [0] and [1] are lower than the saddle when found[k]. */

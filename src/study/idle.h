@@ -7,8 +7,9 @@
 #include "problem/problem.h"
 #include "vesica/plan.h"
 
-/* idle: [variables], filled. false: it cannot be told, because too few designs can be measured
- * or a measure has no gradient. Takes from the arena. test  a circle's own axis; a saddle is not idle */
+/* idle: [variables], filled. false: it cannot be told, because too few designs can be measured or a
+ * measure has no gradient. Takes from the arena.
+ * test  a circle's own axis; a saddle is not idle */
 bool ves_study_idle(ves_plan *plan, const ves_problem *problem, ves_arena *arena, bool *idle);
 
 /* Puts idle variables of a proved design back to their start, where a search has left random values that mean

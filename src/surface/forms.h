@@ -1,8 +1,10 @@
-/* Fundamental forms of a tile: unit normal, area element, mean and Gaussian curvature [Ugail 2011,
- * eqs 7.4-7.5], and the transpose. n = Xu x Xv, J = |n|, N = side n / J, H = -side (E n.Xvv - 2 F n.Xuv + G
- * n.Xuu) / (2 J^3), K = (n.Xuu n.Xvv - (n.Xuv)^2) / J^4 Sign: with the outward normal H = +1/R on a sphere of
- * radius R. One square root and one division a node. test  sphere, torus, catenoid in closed form; gradient
- * against differences; rigid motion */
+/* Fundamental forms of a tile: unit normal, area element, mean and Gaussian curvature [Ugail 2011, eqs 7.4-7.5],
+ * and the transpose.
+ *     n = Xu x Xv,  J = |n|,  N = side n / J
+ *     H = -side (E n.Xvv - 2 F n.Xuv + G n.Xuu) / (2 J^3)
+ *     K = (n.Xuu n.Xvv - (n.Xuv)^2) / J^4
+ * Sign: with the outward normal H = +1/R on a sphere of radius R. One reciprocal square root a node.
+ * test  sphere, torus, catenoid in closed form; gradient against differences; rigid motion */
 #ifndef VES_SURFACE_FORMS_H
 #define VES_SURFACE_FORMS_H
 

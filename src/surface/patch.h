@@ -62,8 +62,7 @@ int ves_patch_modes(const ves_patch *patch);   /* modes solved; 0 for other kind
 int ves_patch_band(const ves_patch *patch);    /* band limit of the data; 0 for other kinds */
 double ves_patch_tail(const ves_patch *patch); /* share of the bound data that the remainder carries */
 
-/* fields: bit f for VES_FIELD_f, all that this chart will ever be asked for. The grid must outlive the chart.
- */
+/* fields: bit f for VES_FIELD_f, all that this chart will ever be asked for. The grid must outlive the chart. */
 ves_status ves_chart_create(ves_patch *patch, const ves_grid *grid, unsigned fields, ves_arena *arena,
                             ves_chart **chart);
 

@@ -1,8 +1,8 @@
-/* Synthesis: from the modes of a patch along u to fields on a grid, and back (the transpose).
- *     d_u^d d_v^e X(u_i, v_j) = sum_n A_n^(d)(u_i) (cos n v_j)^(e) + B_n^(d)(u_i) (sin n v_j)^(e) [Ugail
- * 2011, eq 4.36] Modes: mode[((d * 3 + c) * stride + k) * nup + i], stride = 1 + 2 * modes, nup = nu rounded
- * up to whole registers; k = 0 the mean, 2n-1 the cosine, 2n the sine of mode n. Allocates nothing but in
- * create. test  against direct sums; the transpose by random inner products */
+/* Synthesis: from the modes of a patch along u to fields on a grid, and back (the transpose) [Ugail 2011, eq 4.36].
+ *     d_u^d d_v^e X(u_i, v_j) = sum_n A_n^(d)(u_i) (cos n v_j)^(e) + B_n^(d)(u_i) (sin n v_j)^(e)
+ * Modes: mode[((d * 3 + c) * stride + k) * nup + i], stride = 1 + 2 * modes, nup = nu rounded up to whole
+ * registers; k = 0 the mean, 2n-1 the cosine, 2n the sine of mode n. Allocates nothing but in create.
+ * test  against direct sums; the transpose by random inner products */
 #ifndef VES_SURFACE_SYNTHESIS_H
 #define VES_SURFACE_SYNTHESIS_H
 

@@ -37,8 +37,7 @@ static inline void ves_lanes_put(double *to, ves_lanes x)
 }
 
 /* 1 / sqrt(x) to about one unit in the last place; not a number where x is 0. With AVX-512 from the 14-bit
- * estimate by two steps of Newton: a square root and a division of whole registers cost five times as much.
- */
+ * estimate by two steps of Newton: a square root and a division of whole registers cost five times as much. */
 static inline ves_lanes ves_lanes_rsqrt(ves_lanes x)
 {
 #ifdef __AVX512F__

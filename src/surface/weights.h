@@ -2,10 +2,11 @@
  *
  * Mode n of (d_uu + a^2 d_vv)^N X = 0 satisfies (D^2 - lam^2)^N y = 0 on [0, 1], lam = a n [Ugail 2011,
  * eqs 4.35-4.39]. With K = 2N conditions D^k y(u_j) = f_j the solution is y(u) = sum_j l_j(u) f_j; the table
- * holds the derivatives of the cardinal functions l_j at the wanted u: table[((n * 3 + d) * K + j) * nu + i]
- * = d^d l_j / du^d (u_i),  d = 0, 1, 2 and, when asked, the derivative of each entry with respect to a (same
- * shape). test  manufactured solutions, MPFR oracle: relative error <= 1e-12 for lam in [0, 1000], of the
- * derivatives 2e-12 */
+ * holds the derivatives of the cardinal functions l_j at the wanted u:
+ *     table[((n * 3 + d) * K + j) * nu + i] = d^d l_j / du^d (u_i),  d = 0, 1, 2
+ * and, when asked, the derivative of each entry with respect to a (same shape).
+ * test  manufactured solutions, MPFR oracle: relative error <= 1e-12 for lam in [0, 1000], of the derivatives
+ *       2e-12 */
 #ifndef VES_SURFACE_WEIGHTS_H
 #define VES_SURFACE_WEIGHTS_H
 

@@ -1,9 +1,10 @@
-/* A local perturbation between two places of a curve  [Ugail 2011, eqs 6.1-6.2]:
+/* A local perturbation between two places of a curve [Ugail 2011, eqs 6.1-6.2]:
  *     C_new(v) = C(v) + by 3/2 B((v - c) / h),  c = (from + to) / 2,  h = (to - from) / 4
  * with the cubic B-spline B: zero outside (from, to), twice continuously differentiable at both ends, exactly
  * `by` in the middle. Only the difference of the angles counts, up to whole turns: from 6 to 0.5 goes through
- * 2 pi. Modes, with x = n h / 2: a_n, b_n = by 3 h / (2 pi) sinc^4(x) (cos n c, sin n c),  half of that for
- * the mean. They fall off as n^-4 and never end: cut at the band limit. */
+ * 2 pi. Modes, with x = n h / 2:
+ *     a_n, b_n = by 3 h / (2 pi) sinc^4(x) (cos n c, sin n c),  half of that for the mean.
+ * They fall off as n^-4 and never end: cut at the band limit. */
 #include <math.h>
 
 #include "curve/modes.h"

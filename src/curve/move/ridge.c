@@ -1,11 +1,12 @@
 /* Ridges: C_new(v) = C(v) + by b(v) e(v), b the periodic uniform cubic B-spline whose N = `points`
- * coefficients are +1, -1, +1 ...
- * (+1 at v = 0, |b| = 1/3 at the knots): what moving alternate control points of a spline by +-by along e
- * gives [Ugail 2011, eq 7.6]. Its spectrum has the odd multiples of N/2 alone: b(v) = sum_{m odd} 2 (2 / (pi
- * m))^4 cos(m N/2 v). radial  e(v) = e0 cos v + e1 sin v, where e0 and e1 are the unit vectors along the
- * first cosine and sine modes a_1, b_1 of the curve. A circle that has been dilated unevenly still has the
- * directions of the circle. axis    e = a_1 x b_1 / |a_1 x b_1|: the side from which the curve is seen to run
- * counterclockwise. Products with cos v and sin v move a mode by one, nothing is sampled. */
+ * coefficients are +1, -1, +1 ... (+1 at v = 0, |b| = 1/3 at the knots): what moving alternate control points
+ * of a spline by +-by along e gives [Ugail 2011, eq 7.6]. Its spectrum has the odd multiples of N/2 alone:
+ *     b(v) = sum_{m odd} 2 (2 / (pi m))^4 cos(m N/2 v)
+ *   radial  e(v) = e0 cos v + e1 sin v, where e0 and e1 are the unit vectors along the first cosine and sine
+ *           modes a_1, b_1 of the curve: a circle that has been dilated unevenly still has the directions of
+ *           the circle
+ *   axis    e = a_1 x b_1 / |a_1 x b_1|: the side from which the curve is seen to run counterclockwise
+ * Products with cos v and sin v move a mode by one, nothing is sampled. */
 #include <math.h>
 
 #include "curve/modes.h"

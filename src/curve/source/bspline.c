@@ -1,9 +1,9 @@
-/* Periodic uniform cubic B-spline  C(v) = sum_j P_j B((v - v_j) / h), h = 2 pi / N, v_j = j h  [Ugail 2011,
- * eqs 2.4-2.5, 6.2, 7.6]. Control point j pulls most at v_j: C(v_j) = (P_{j-1} + 4 P_j + P_{j+1}) / 6. The
- * transform of the cubic B is sinc^4, so the modes are those of the control points, continued periodically in
- * n, times sinc^4(pi n / N): nothing is sampled. To interpolate, the circulant system with rows (1 4 1)/6 is
- * solved in the same basis, where it is a division by (2 + cos(2 pi n / N)) / 3. test  de Boor; hits its
- * points; partition of unity */
+/* Periodic uniform cubic B-spline  C(v) = sum_j P_j B((v - v_j) / h), h = 2 pi / N, v_j = j h  [Ugail
+ * 2011, eqs 2.4-2.5, 6.2, 7.6]. Control point j pulls most at v_j: C(v_j) = (P_{j-1} + 4 P_j + P_{j+1}) /
+ * 6. The transform of the cubic B is sinc^4, so the modes are those of the control points, continued
+ * periodically in n, times sinc^4(pi n / N): nothing is sampled. To interpolate, the circulant system with
+ * rows (1 4 1)/6 is solved in the same basis, where it is a division by (2 + cos(2 pi n / N)) / 3.
+ * test  de Boor; hits its points; partition of unity */
 #include <math.h>
 
 #include "curve/modes.h"

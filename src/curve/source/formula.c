@@ -1,8 +1,8 @@
 /* A curve by three formulas of v. Sampled at v = 2 pi j / J and analysed [Ugail 2011, eqs 4.24-4.27]; J is
- * chosen once, from the spectrum at the start design and, for a curve that varies, at designs around it, so
- * that a harmonic whose factor happens to be zero at the start is not lost. A curve that varies is sampled
- * again for each x. test  cos and sin to rounding; smooth curves against direct evaluation; gradient by
- * differences */
+ * chosen once, from the spectrum at the start design and, for a curve that varies, at designs around it,
+ * so that a harmonic whose factor happens to be zero at the start is not lost. A curve that varies is
+ * sampled again for each x.
+ * test  cos and sin to rounding; smooth curves against direct evaluation; gradient by differences */
 #include <math.h>
 #include <string.h>
 
@@ -83,8 +83,7 @@ static int spectrum(const work *w, double *size)
     }
 }
 
-/* Slots at probe `number`: 0 the start, further ones around it. False: the formulas read nothing that varies.
- */
+/* Slots at probe `number`: 0 the start, further ones around it. False: the formulas read nothing that varies. */
 static bool probe(const work *w, const ves_curve_input *input, int number)
 {
     bool any = false;

@@ -1,8 +1,9 @@
 /* A curve through given points, say of a scan.
  *   uniform     point j lies at v = 2 pi j / N exactly: trigonometric interpolation, linear in the points
- * [Ugail 2011, eqs 4.24-4.27] arc_length  equal steps in v are equal distances along the closed cubic spline
- * through the points (chord-length knots); not linear, so only for points that do not vary test  hits its
- * points; constant speed */
+ *               [Ugail 2011, eqs 4.24-4.27]
+ *   arc_length  equal steps in v are equal distances along the closed cubic spline through the points
+ *               (chord-length knots); not linear, so only for points that do not vary
+ * test  hits its points; constant speed */
 #include <math.h>
 #include <string.h>
 

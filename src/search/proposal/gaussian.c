@@ -8,9 +8,10 @@
  * follows the acceptance (Corana, Marchesi, Martini and Ridella 1987, with the gain of a stochastic
  * approximation instead of their table), and the steps along all share one more factor. Targets: 0.44 along
  * one coordinate, 0.234 along many (Roberts, Gelman and Gilks 1997). Without `adapt` the widths stay: the
- * generation mechanism of [Ugail 2011, 7.4.1]. state  factor of the steps along all, coordinate of the last
- * trial (-1: all), width of each coordinate test   mean energy n T / 2 in a quadratic well; populations of a
- * double well; acceptance settles near the target */
+ * generation mechanism of [Ugail 2011, 7.4.1].
+ * state  factor of the steps along all, coordinate of the last trial (-1: all), width of each coordinate
+ * test   mean energy n T / 2 in a quadratic well; populations of a double well; acceptance settles near the
+ *        target */
 
 enum { FACTOR, LAST, WIDTH };
 

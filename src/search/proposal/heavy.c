@@ -4,10 +4,11 @@
 
 #include "search/point.h"
 
-/* Steps without a scale: one to three coordinates, each by a normal step whose width is drawn log-uniformly
- * over three decades below the whole range. Nothing to adapt: at any temperature some of the widths fit.
- * Heavy tails as in the visiting distribution of generalised annealing (Tsallis and Stariolo 1996). test   as
- * gaussian */
+/* Steps without a scale: one to three coordinates, each by a normal step whose width is drawn
+ * log-uniformly over three decades below the whole range. Nothing to adapt: at any temperature some of the
+ * widths fit. Heavy tails as in the visiting distribution of generalised annealing (Tsallis and Stariolo
+ * 1996).
+ * test  as gaussian */
 
 static const double decades = 3;
 

@@ -2,11 +2,11 @@
 
 #include "search/schedule/schedule.h"
 
-/* The book's schedule  c_m = c_0 e^{(s-1) m},  0 < s < 1                                        [Ugail 2011,
- * eq 7.3] Equilibrium is a fixed number of trials at each temperature. When s is free: min(10 n, budget /
- * 50), so that there are some fifty temperatures or, with a large budget, more, and s such that the last one
- * is c_end. When s is given: what the budget allows each of the temperatures down to c_end, but at least
- * min(n, budget / 50); c_end is then missed where the budget is too short. */
+/* The book's schedule  c_m = c_0 e^{(s-1) m},  0 < s < 1  [Ugail 2011, eq 7.3]. Equilibrium is a fixed number
+ * of trials at each temperature. When s is free: min(10 n, budget / 50), so that there are some fifty
+ * temperatures or, with a large budget, more, and s such that the last one is c_end. When s is given: what the
+ * budget allows each of the temperatures down to c_end, but at least min(n, budget / 50); c_end is then missed
+ * where the budget is too short. */
 
 enum { LEAST_TEMPERATURES = 50, TRIALS_PER_VARIABLE = 10 };
 
