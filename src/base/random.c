@@ -3,6 +3,8 @@
 #include <Random123/philox.h>
 #include <math.h>
 
+#include "base/vector.h"
+
 void ves_random_words(uint64_t seed, uint32_t chain, uint64_t step, uint32_t draw, uint32_t word[4])
 {
     philox4x32_ctr_t counter = {{draw, chain, (uint32_t)step, (uint32_t)(step >> 32)}};
@@ -28,7 +30,7 @@ double ves_random_normal(ves_random *random)
 {
     uint32_t word[4];
     ves_random_words(random->seed, random->chain, random->step, random->draw++, word);
-    return sqrt(-2 * log(unit(word[0], word[1]))) * cos(6.283185307179586 * unit(word[2], word[3]));
+    return sqrt(-2 * log(unit(word[0], word[1]))) * cos(VES_TWO_PI * unit(word[2], word[3]));
 }
 
 int ves_random_below(ves_random *random, int n)

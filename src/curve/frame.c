@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "base/vector.h"
 #include "curve/modes.h"
 
 static const double origin[3] = {0, 0, 0}, upward[3] = {0, 0, 1};
@@ -11,11 +12,6 @@ typedef struct tilt {
     double n[3], length; /* length: of the axis, negative when n points against it */
     double sum;
 } tilt;
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* The largest component, on a tie the later one. */
 static int largest(const double axis[3])
@@ -43,7 +39,7 @@ ves_frame ves_frame_init(const double axis[3], const bool varies[3])
 
 static tilt tilt_of(const ves_frame *frame, const double axis[3])
 {
-    tilt t = {.length = frame->sign * sqrt(dot(axis, axis))};
+    tilt t = {.length = frame->sign * sqrt(ves_dot(axis, axis))};
     for (int c = 0; c < 3; c++) t.n[c] = axis[c] / t.length;
     double along = t.n[frame->m], p = t.n[frame->other[0]], q = t.n[frame->other[1]];
     t.sum = along < 0 ? (p * p + q * q) / (1 - along) : 1 + along; /* near -m the sum would cancel */
@@ -79,7 +75,7 @@ void ves_frame_scatter(const ves_frame *frame, const double axis[3], const doubl
         n_adjoint[frame->other[i]] += q_adjoint * inverse;
         n_adjoint[frame->m] -= q_adjoint * q * inverse;
     }
-    double along = dot(n_adjoint, t.n);
+    double along = ves_dot(n_adjoint, t.n);
     for (int c = 0; c < 3; c++) axis_adjoint[c] += (n_adjoint[c] - along * t.n[c]) / t.length;
 }
 
@@ -87,7 +83,7 @@ ves_status ves_ring_prepare(const ves_curve_input *input, ves_ring ring, ves_are
                             ves_diag *diag)
 {
     const double *axis = ves_input_vector(input, ring.axis, upward);
-    if (!(dot(axis, axis) > 0))
+    if (!(ves_dot(axis, axis) > 0))
         return ves_diag_add(diag, VES_ERROR, VES_RANGE, ves_input_mark(input, ring.axis),
                             "\"axis\" must not be [0, 0, 0]: it says which way the curve's plane faces");
     ves_frame *frame = ves_arena_take(arena, 1, sizeof *frame);

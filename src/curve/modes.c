@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double two_pi = 6.283185307179586476925286766559;
+#include "base/vector.h"
 
 static const ves_arg *answer(const ves_curve_input *input, int key)
 {
@@ -138,7 +138,7 @@ static double weight(int n, int count)
 static void wave(int n, int j, int count, double z[2])
 {
     int r = (int)((long)n * j % count);
-    double angle = two_pi * r / count;
+    double angle = VES_TWO_PI * r / count;
     z[0] = cos(angle);
     z[1] = 2 * r == count ? 0 : sin(angle);
 }

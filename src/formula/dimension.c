@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
+#include "base/vector.h"
 
 enum { LARGEST = 127, SIXTHS = 6 };
 
@@ -26,7 +26,7 @@ typedef struct unit_row {
     X(GPa,  1e9, 1,  -1, 1, -2)  X(bar, 1e5, 1,  -1, 1, -2)  X(W,   1, 1,     2, 1, -3)                      \
     X(J,    1, 1,     2, 1, -2)  X(kJ,  1e3, 1,   2, 1, -2)  X(mJ,  1, 1e3,   2, 1, -2)                      \
     X(l,    1, 1e3,   3, 0, 0)   X(ml,  1, 1e6,   3, 0, 0)                                                   \
-    X(deg,  PI, 180,  0, 0, 0)   X(rad, 1, 1,     0, 0, 0)
+    X(deg,  VES_PI, 180,  0, 0, 0)   X(rad, 1, 1,     0, 0, 0)
 
 #define UNIT_ROW(name, up, down, m, kg, s) {#name, up, down, m, kg, s},
 #define UNIT_NAME(name, up, down, m, kg, s) #name,

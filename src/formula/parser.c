@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
+#include "base/vector.h"
 
 enum {
     TEXT = 1 << 16, /* bytes of a formula */
@@ -234,7 +234,7 @@ static ves_part read_name(ves_parser *parser)
         part.node = ves_graph_leaf(&parser->graph, VES_OP_SLOT, slot);
         part.dim = known(parser, parser->scope->slot[slot].dim);
     } else if (!call && ves_lexer_is(lexer, "pi")) {
-        part.node = ves_graph_constant(&parser->graph, PI);
+        part.node = ves_graph_constant(&parser->graph, VES_PI);
         part.dim = known(parser, part.dim);
     } else {
         ves_parser_unknown_name(parser);

@@ -3,13 +3,10 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "base/vector.h"
+
 enum { STEPS = 40 };
 static const double CLOSE = 1e-7; /* steps shorten to their square, or at worst by 1e-6 */
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 void ves_approach_vector(const ves_piece *a, const ves_piece *b, const double t[2], double vector[3])
 {
@@ -22,7 +19,7 @@ static double half_square(const ves_piece *a, const ves_piece *b, const double t
 {
     double r[3];
     ves_approach_vector(a, b, t, r);
-    return dot(r, r) / 2;
+    return ves_dot(r, r) / 2;
 }
 
 /* Slope and Hessian of |r|^2 / 2 at t. */
@@ -38,7 +35,10 @@ static model model_init(const ves_piece *a, const ves_piece *b, const double t[2
         p[c] = -(a->Xv[c] + t[0] * a->Xvv[c]);
         q[c] = b->Xv[c] + t[1] * b->Xvv[c];
     }
-    return (model){{dot(r, p), dot(r, q)}, dot(p, p) - dot(r, a->Xvv), dot(p, q), dot(q, q) + dot(r, b->Xvv)};
+    return (model){{ves_dot(r, p), ves_dot(r, q)},
+                   ves_dot(p, p) - ves_dot(r, a->Xvv),
+                   ves_dot(p, q),
+                   ves_dot(q, q) + ves_dot(r, b->Xvv)};
 }
 
 /* Takes a variable out that its end holds, or that moves nothing. */

@@ -4,6 +4,8 @@
 
 #include "vesica/measure.h"
 
+#include "base/vector.h"
+
 /* The value of a number key, or its fallback. */
 double ves_argument_number(const ves_measure_input *input, int key);
 
@@ -22,10 +24,5 @@ ves_status ves_direction_init(const ves_measure_input *input, int key, ves_direc
 /* Adds d J / d vector, given d J / d unit: the part across it, over its length. */
 void ves_direction_gradient(const ves_measure_input *input, int key, const ves_direction *direction,
                             const double back[3], double *number_adjoint);
-
-static inline double ves_dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 #endif

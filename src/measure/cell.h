@@ -6,6 +6,8 @@
 
 #include "vesica/measure.h"
 
+#include "base/vector.h"
+
 typedef struct ves_cell {
     double lo[2], hi[2];
 } ves_cell;
@@ -18,16 +20,15 @@ static inline void ves_cell_u(const ves_samples *s, int i, double *lo, double *h
 
 static inline void ves_cell_v(const ves_samples *s, int j, double *lo, double *hi)
 {
-    static const double around = 6.283185307179586;
     int last = s->nv - 1;
     if (j > 0)
         *lo = (s->v[j - 1] - s->v[j]) / 2;
     else
-        *lo = s->periodic ? (s->v[last] - around - s->v[0]) / 2 : 0 - s->v[0];
+        *lo = s->periodic ? (s->v[last] - VES_TWO_PI - s->v[0]) / 2 : 0 - s->v[0];
     if (j < last)
         *hi = (s->v[j + 1] - s->v[j]) / 2;
     else
-        *hi = s->periodic ? (s->v[0] + around - s->v[last]) / 2 : around - s->v[last];
+        *hi = s->periodic ? (s->v[0] + VES_TWO_PI - s->v[last]) / 2 : VES_TWO_PI - s->v[last];
 }
 
 static inline ves_cell ves_cell_init(const ves_samples *s, int node)

@@ -1,6 +1,6 @@
 #include "measure/flux.h"
 
-static const double TWO_PI = 6.283185307179586;
+#include "base/vector.h"
 
 ves_cap ves_cap_init(const ves_samples *s)
 {
@@ -8,7 +8,7 @@ ves_cap ves_cap_init(const ves_samples *s)
     for (int n = 0; n < s->count; n++)
         for (int c = 0; c < 3; c++) {
             int a = (c + 1) % 3, b = (c + 2) % 3;
-            cap.mean[c] += s->X[c][n] * s->weight[n] / TWO_PI;
+            cap.mean[c] += s->X[c][n] * s->weight[n] / VES_TWO_PI;
             cap.twice_area[c] += (s->X[a][n] * s->Xv[b][n] - s->X[b][n] * s->Xv[a][n]) * s->weight[n];
         }
     return cap;
@@ -20,7 +20,7 @@ void ves_cap_gradient(const ves_samples *s, const ves_cap *back, const ves_adjoi
         for (int c = 0; c < 3; c++) {
             int a = (c + 1) % 3, b = (c + 2) % 3;
             double w = s->weight[n], g = back->twice_area[c] * w;
-            adjoint->X[c][n] += back->mean[c] * w / TWO_PI;
+            adjoint->X[c][n] += back->mean[c] * w / VES_TWO_PI;
             adjoint->X[a][n] += g * s->Xv[b][n], adjoint->Xv[b][n] += g * s->X[a][n];
             adjoint->X[b][n] -= g * s->Xv[a][n], adjoint->Xv[a][n] -= g * s->X[b][n];
         }

@@ -1,10 +1,9 @@
 /* Figures: the shape at one x on regular grids, edge to edge. */
+#include "base/vector.h"
 #include "plan/inside.h"
 
 #include <math.h>
 #include <string.h>
-
-static const double TWO_PI = 6.283185307179586;
 
 /* At a pole Xv vanishes: forms are taken this far inside and half as far, and followed to their limit.
  * Nearer, what cancels in them would be seen: their rounding is 1e-16 over this distance. */
@@ -35,8 +34,8 @@ static ves_status grid_make(ves_figure *figure, const ves_figure_patch *f, const
     double *v = ves_arena_take(&figure->arena, (size_t)f->columns, sizeof *v);
     if (!v) return VES_MEMORY;
     for (int j = 0; j < f->columns; j++) {
-        v[j] = TWO_PI * j / f->nv + rows->slide;
-        if (rows->slide != 0) v[j] -= TWO_PI * floor(v[j] / TWO_PI);
+        v[j] = VES_TWO_PI * j / f->nv + rows->slide;
+        if (rows->slide != 0) v[j] -= VES_TWO_PI * floor(v[j] / VES_TWO_PI);
     }
     return ves_grid_given(rows->rows, rows->u, f->columns, v, f->periodic, &figure->arena, grid);
 }
@@ -224,9 +223,9 @@ static ves_status seams_lay(const ves_plan *plan, ves_figure *figure, int k)
     for (int i = 0; i < f->rows && f->sides_meet; i++)
         unite(same, (always->sides.reversed ? f->nu - i : i) * f->columns, i * f->columns + f->nv);
     if (f->ends_meet) {
-        double steps = now.ends.shift / TWO_PI * f->nv;
+        double steps = now.ends.shift / VES_TWO_PI * f->nv;
         int whole = (int)lround(steps), sign = now.ends.reversed ? -1 : 1;
-        if (f->periodic) f->slide = sign * (whole - steps) * TWO_PI / f->nv;
+        if (f->periodic) f->slide = sign * (whole - steps) * VES_TWO_PI / f->nv;
         if (fabs(f->slide) < 1e-12) f->slide = 0;
         for (int j = 0; j < f->columns; j++) {
             int meets = whole + sign * j;

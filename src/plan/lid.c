@@ -1,5 +1,6 @@
 /* Lids: how a cap is drawn when the fan to its middle would overlap itself. A rim that lies in a plane bounds
  * the same piece of it, and the same volume under it, however the piece is cut into triangles. */
+#include "base/vector.h"
 #include "bridge/bridge.h"
 #include "plan/inside.h"
 
@@ -9,16 +10,6 @@
  * hold less than a millionth of the rim's cube between them. */
 static const double FLAT = 1e-6;
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int c = 0; c < 3; c++) out[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
-}
-
 /* Arms from the middle to the nodes, closed; returns the length of the longest. */
 static double arms_make(const ves_figure_patch *f, int end, double (*arm)[3])
 {
@@ -27,7 +18,7 @@ static double arms_make(const ves_figure_patch *f, int end, double (*arm)[3])
     ves_figure_middle(f, end, middle);
     for (int j = 0; j <= f->nv; j++) {
         for (int c = 0; c < 3; c++) arm[j][c] = f->X[c][row + j % f->nv] - middle[c];
-        longest = fmax(longest, sqrt(dot(arm[j], arm[j])));
+        longest = fmax(longest, sqrt(ves_dot(arm[j], arm[j])));
     }
     return longest;
 }
@@ -38,12 +29,12 @@ static bool fan_overlaps(int count, double (*arm)[3], double normal[3])
     double spoke[3];
     for (int c = 0; c < 3; c++) normal[c] = 0;
     for (int j = 0; j < count; j++) {
-        cross(arm[j], arm[j + 1], spoke);
+        ves_cross(arm[j], arm[j + 1], spoke);
         for (int c = 0; c < 3; c++) normal[c] += spoke[c];
     }
     for (int j = 0; j < count; j++) {
-        cross(arm[j], arm[j + 1], spoke);
-        if (!(dot(spoke, normal) > 0)) return true;
+        ves_cross(arm[j], arm[j + 1], spoke);
+        if (!(ves_dot(spoke, normal) > 0)) return true;
     }
     return false;
 }
@@ -51,12 +42,12 @@ static bool fan_overlaps(int count, double (*arm)[3], double normal[3])
 /* The rim in its plane, counter-clockwise about the normal; false: it leaves the plane. */
 static bool flatten(int count, double (*arm)[3], const double normal[3], double size, double *xy)
 {
-    double n[3], length = sqrt(dot(normal, normal)), e[2][3], first = sqrt(dot(arm[0], arm[0]));
+    double n[3], length = sqrt(ves_dot(normal, normal)), e[2][3], first = sqrt(ves_dot(arm[0], arm[0]));
     for (int c = 0; c < 3; c++) n[c] = normal[c] / length, e[0][c] = arm[0][c] / first;
-    cross(n, e[0], e[1]);
+    ves_cross(n, e[0], e[1]);
     for (int j = 0; j < count; j++) {
-        if (!(fabs(dot(arm[j], n)) <= FLAT * size)) return false;
-        for (int k = 0; k < 2; k++) xy[2 * j + k] = dot(arm[j], e[k]);
+        if (!(fabs(ves_dot(arm[j], n)) <= FLAT * size)) return false;
+        for (int k = 0; k < 2; k++) xy[2 * j + k] = ves_dot(arm[j], e[k]);
     }
     return true;
 }

@@ -1,13 +1,12 @@
 /* Sheets: surfaces by formula or points. A file says nothing about their ends, so they are looked at: which
  * end is a point, and where the sheet meets itself. */
 #include "base/random.h"
+#include "base/vector.h"
 #include "plan/inside.h"
 
 #include <math.h>
 
 enum { LOOKS = 16, AROUND = 256, TURNS = 40, DESIGNS = 3 };
-
-static const double TWO_PI = 6.283185307179586;
 
 /* Of the sheet's size: points that are meant to be one. Formulas are rounded at 1e-16 of their largest terms,
  * so this forgives terms a million times as large as what is left of them, and is far below any mesh. */
@@ -24,8 +23,8 @@ typedef struct look {
 static double wrapped(const look *l, double v)
 {
     if (!l->periodic) return v;
-    double t = fmod(v, TWO_PI);
-    return t < 0 ? t + TWO_PI : t;
+    double t = fmod(v, VES_TWO_PI);
+    return t < 0 ? t + VES_TWO_PI : t;
 }
 
 /* Fields of `count` points, as ves_patch_point lays them out. */
@@ -64,7 +63,7 @@ static bool ends_meet(const look *l, bool reversed, double shift)
 {
     double u[2 * LOOKS], v[2 * LOOKS];
     for (int k = 0; k < LOOKS; k++) {
-        u[k] = 1, v[k] = TWO_PI * place(k);
+        u[k] = 1, v[k] = VES_TWO_PI * place(k);
         u[LOOKS + k] = 0, v[LOOKS + k] = reversed ? shift - v[k] : shift + v[k];
     }
     return apart(l, u, v) <= l->near;
@@ -77,7 +76,7 @@ static double sides_apart(const look *l, bool reversed)
     look plain = *l;
     plain.periodic = false; /* 2 pi must not be wrapped to 0 */
     for (int k = 0; k < LOOKS; k++) {
-        u[k] = place(k), v[k] = TWO_PI;
+        u[k] = place(k), v[k] = VES_TWO_PI;
         u[LOOKS + k] = reversed ? 1 - u[k] : u[k], v[LOOKS + k] = 0;
     }
     return apart(&plain, u, v);
@@ -88,7 +87,7 @@ static bool end_is_point(const look *l, int end)
     double u[2 * LOOKS], v[2 * LOOKS];
     for (int k = 0; k < LOOKS; k++) {
         u[k] = u[LOOKS + k] = end;
-        v[k] = TWO_PI * place(k), v[LOOKS + k] = TWO_PI * place(0);
+        v[k] = VES_TWO_PI * place(k), v[LOOKS + k] = VES_TWO_PI * place(0);
     }
     return apart(l, u, v) <= l->near;
 }
@@ -101,7 +100,7 @@ static double size_of(const look *l)
     for (int k = 0; k < COUNT; k++) {
         double t = place(k % LOOKS), edge = k / LOOKS;
         u[k] = edge == 0 ? 0 : edge == 1 ? 1 : t;
-        v[k] = TWO_PI * (edge == 2 ? 0 : edge == 3 ? 0.5 : t);
+        v[k] = VES_TWO_PI * (edge == 2 ? 0 : edge == 3 ? 0.5 : t);
     }
     const double *X = points(l, COUNT, u, v);
     for (int c = 0; c < 3; c++)
@@ -124,7 +123,7 @@ static bool descend(const look *l, const double at[3], double *v)
         double step = slope / square;
         if (!isfinite(step)) break;
         *v += step;
-        if (fabs(step) < 1e-15 * TWO_PI) return sqrt(distance) <= l->near;
+        if (fabs(step) < 1e-15 * VES_TWO_PI) return sqrt(distance) <= l->near;
     }
     return false;
 }
@@ -133,17 +132,17 @@ static bool descend(const look *l, const double at[3], double *v)
  * passes through one point of the last. */
 static bool turn_find(const look *l, plan_seam *seam)
 {
-    double u[AROUND] = {0}, v[AROUND], at[3], far[AROUND], v1 = TWO_PI * place(0);
+    double u[AROUND] = {0}, v[AROUND], at[3], far[AROUND], v1 = VES_TWO_PI * place(0);
     const double *X = points(l, 1, &(double){1}, &(double){v1});
     for (int c = 0; c < 3; c++) at[c] = X[c];
-    for (int k = 0; k < AROUND; k++) v[k] = TWO_PI * k / AROUND;
+    for (int k = 0; k < AROUND; k++) v[k] = VES_TWO_PI * k / AROUND;
     X = points(l, AROUND, u, v);
     for (int k = 0; k < AROUND; k++) {
         far[k] = 0;
         for (int c = 0; c < 3; c++) far[k] += (X[c * AROUND + k] - at[c]) * (X[c * AROUND + k] - at[c]);
     }
     for (int k = 0; k < AROUND; k++) {
-        double found = TWO_PI * k / AROUND;
+        double found = VES_TWO_PI * k / AROUND;
         if (far[k] > far[(k + 1) % AROUND] || far[k] > far[(k + AROUND - 1) % AROUND]) continue;
         if (!descend(l, at, &found)) continue;
         for (int reversed = 0; reversed < 2; reversed++) {
@@ -170,7 +169,7 @@ static void ends_find(const look *l, plan_sheet *found)
     for (int end = 0; end < 2; end++) found->pole[end] = end_is_point(l, end);
     if (found->pole[0] || found->pole[1]) return;
     for (int reversed = 0; reversed < 2; reversed++) {
-        double shift = reversed && !l->periodic ? TWO_PI : 0;
+        double shift = reversed && !l->periodic ? VES_TWO_PI : 0;
         if (!ends_meet(l, reversed, shift)) continue;
         found->ends = (plan_seam){.joined = true, .reversed = reversed, .shift = shift};
         return;

@@ -1,6 +1,7 @@
 /* patches, places, shape. */
 #include <string.h>
 
+#include "base/vector.h"
 #include "formula/dimension.h"
 #include "problem/reader.h"
 
@@ -279,12 +280,11 @@ static void read_surface(ves_reader *reader, const ves_node *node, const ves_fie
 static void read_explicit(ves_reader *reader, const ves_node *surface, const ves_fields *f,
                           ves_patch_def *patch)
 {
-    static const double two_pi = 6.283185307179586476925286766559;
     const ves_node *periodic = ves_fields_find(f, "periodic"), *domain = ves_fields_find(f, "domain");
     read_surface(reader, surface, f, patch);
     patch->periodic = !periodic || ves_reader_flag(reader, periodic, f->field[at(f, "periodic")].key);
     patch->u_range[1] = 1;
-    patch->v_range[1] = two_pi;
+    patch->v_range[1] = VES_TWO_PI;
     ves_fields d;
     if (!domain ||
         !ves_fields_read(reader, domain, ves_schema_find(patch_table(), "domain")->table, "domain", &d))

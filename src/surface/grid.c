@@ -2,12 +2,12 @@
 
 #include <math.h>
 
-static const double TWO_PI = 6.283185307179586;
+#include "base/vector.h"
 
 void ves_gauss_nodes(int n, double *node, double *weight)
 {
     for (int k = 0; k < n; k++) {
-        double x = cos(3.141592653589793 * (k + 0.75) / (n + 0.5)), slope = 1;
+        double x = cos(VES_PI * (k + 0.75) / (n + 0.5)), slope = 1;
         for (int step = 0; step < 100; step++) {
             double p = 1, q = 0;
             for (int m = 0; m < n; m++) {
@@ -39,11 +39,11 @@ static void around(ves_grid *grid, double *weight)
 {
     int n = grid->nv;
     if (grid->periodic) {
-        for (int j = 0; j < n; j++) grid->v[j] = TWO_PI * (j + 0.5) / n, weight[j] = TWO_PI / n;
+        for (int j = 0; j < n; j++) grid->v[j] = VES_TWO_PI * (j + 0.5) / n, weight[j] = VES_TWO_PI / n;
         grid->symmetric = n % 4 == 0;
     } else {
         ves_gauss_nodes(n, grid->v, weight);
-        for (int j = 0; j < n; j++) grid->v[j] *= TWO_PI, weight[j] *= TWO_PI;
+        for (int j = 0; j < n; j++) grid->v[j] *= VES_TWO_PI, weight[j] *= VES_TWO_PI;
     }
 }
 

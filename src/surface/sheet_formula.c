@@ -1,4 +1,5 @@
 /* Sheets given by formulas of u and v: every derivative is a formula too, made once. */
+#include "base/vector.h"
 #include "surface/sheet.h"
 
 #include <string.h>
@@ -9,8 +10,6 @@ typedef struct drawn {
     int room;
 } drawn;
 
-static const double TWO_PI = 6.283185307179586;
-
 /* Surface coordinates -> the formula's, and the factor of a derivative. */
 static double inward(const double range[2], double t)
 {
@@ -19,7 +18,7 @@ static double inward(const double range[2], double t)
 
 static double factor(const drawn *d, int f)
 {
-    double u = d->u_range[1] - d->u_range[0], v = (d->v_range[1] - d->v_range[0]) / TWO_PI, product = 1;
+    double u = d->u_range[1] - d->u_range[0], v = (d->v_range[1] - d->v_range[0]) / VES_TWO_PI, product = 1;
     for (int k = 0; k < ves_field_d[f]; k++) product *= u;
     for (int k = 0; k < ves_field_e[f]; k++) product *= v;
     return product;
@@ -42,7 +41,8 @@ static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             for (int j = 0; j < grid->nv; j++)
                 for (int i = 0; i < grid->nu; i++) {
-                    double at[2] = {inward(d->u_range, grid->u[i]), inward(d->v_range, grid->v[j] / TWO_PI)};
+                    double at[2] = {inward(d->u_range, grid->u[i]),
+                                    inward(d->v_range, grid->v[j] / VES_TWO_PI)};
                     double value = ves_formula_eval(d->formula[f][c], bound->number, at, s->room);
                     s->plane[f][c][j * grid->nu + i] = factor(d, f) * value;
                 }
@@ -57,7 +57,8 @@ static void gather(ves_chart *chart, const ves_bound *bound, double *number_adjo
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             for (int j = 0; j < grid->nv; j++)
                 for (int i = 0; i < grid->nu; i++) {
-                    double at[2] = {inward(d->u_range, grid->u[i]), inward(d->v_range, grid->v[j] / TWO_PI)};
+                    double at[2] = {inward(d->u_range, grid->u[i]),
+                                    inward(d->v_range, grid->v[j] / VES_TWO_PI)};
                     double seed = factor(d, f) * s->adjoint[f][c][j * grid->nu + i];
                     if (seed == 0) continue;
                     ves_formula_gradient(d->formula[f][c], bound->number, at, seed, number_adjoint, NULL,
@@ -77,7 +78,7 @@ static void point(const ves_patch *patch, const ves_bound *bound, int count, con
     for (int f = 0; f < VES_FIELDS; f++)
         for (int c = 0; c < 3; c++)
             for (int k = 0; k < count; k++) {
-                double at[2] = {inward(d->u_range, u[k]), inward(d->v_range, v[k] / TWO_PI)};
+                double at[2] = {inward(d->u_range, u[k]), inward(d->v_range, v[k] / VES_TWO_PI)};
                 out[(f * 3 + c) * count + k] =
                     factor(d, f) * ves_formula_eval(d->formula[f][c], bound->number, at, room);
             }

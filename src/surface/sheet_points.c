@@ -1,4 +1,5 @@
 /* Sheets through a grid of points: a tensor product of cardinal cubic splines, linear in the points. */
+#include "base/vector.h"
 #include "surface/sheet.h"
 
 #include <math.h>
@@ -92,11 +93,10 @@ static void spline_row(const spline *s, double t, double range, int d, double *r
 
 static void rows_fill(const grid_of_points *g, const ves_grid *grid, const tables *t)
 {
-    static const double around = 6.283185307179586;
     for (int d = 0; d < 3; d++) {
         for (int i = 0; i < grid->nu; i++) spline_row(&g->u, grid->u[i], 1, d, t->u[d] + i * g->rows);
         for (int j = 0; j < grid->nv; j++)
-            spline_row(&g->v, grid->v[j] / around, around, d, t->v[d] + j * g->columns);
+            spline_row(&g->v, grid->v[j] / VES_TWO_PI, VES_TWO_PI, d, t->v[d] + j * g->columns);
     }
 }
 
@@ -186,7 +186,7 @@ static void point(const ves_patch *patch, const ves_bound *bound, int count, con
     for (int k = 0; k < count; k++)
         for (int f = 0; f < VES_FIELDS; f++) {
             spline_row(&g->u, u[k], 1, ves_field_d[f], ru);
-            spline_row(&g->v, v[k] / 6.283185307179586, 6.283185307179586, ves_field_e[f], rv);
+            spline_row(&g->v, v[k] / VES_TWO_PI, VES_TWO_PI, ves_field_e[f], rv);
             for (int c = 0; c < 3; c++) {
                 double sum = 0;
                 for (int r = 0; r < g->rows; r++)

@@ -7,11 +7,11 @@
  * They fall off as n^-4 and never end: cut at the band limit. */
 #include <math.h>
 
+#include "base/vector.h"
 #include "curve/modes.h"
 
 enum { FROM, TO, BY };
 
-static const double pi = 3.14159265358979323846;
 static const double nothing[3] = {0, 0, 0};
 
 static const ves_key keys[] = {
@@ -25,8 +25,8 @@ static const ves_key keys[] = {
 static void place(const ves_curve_input *input, double *h, double *c)
 {
     double from = ves_input_number(input, FROM), width = ves_input_number(input, TO) - from;
-    width -= 2 * pi * floor(width / (2 * pi));
-    if (width == 0) width = 2 * pi;
+    width -= 2 * VES_PI * floor(width / (2 * VES_PI));
+    if (width == 0) width = 2 * VES_PI;
     *h = width / 4;
     *c = from + width / 2;
 }
@@ -34,7 +34,7 @@ static void place(const ves_curve_input *input, double *h, double *c)
 /* Amplitude of mode n and its derivative with respect to h. */
 static double amplitude(int n, double h, double *slope)
 {
-    double x = n * h / 2, s = ves_sinc(x), scale = (n ? 3 : 1.5) / (2 * pi);
+    double x = n * h / 2, s = ves_sinc(x), scale = (n ? 3 : 1.5) / (2 * VES_PI);
     *slope = scale * s * s * s * (4 * cos(x) - 3 * s); /* of h sinc^4, since x sinc' = cos - sinc */
     return scale * h * s * s * s * s;
 }

@@ -9,12 +9,11 @@
  * Products with cos v and sin v move a mode by one, nothing is sampled. */
 #include <math.h>
 
+#include "base/vector.h"
 #include "curve/modes.h"
 
 enum { POINTS, BY, ALONG };
 enum { RADIAL, AXIS };
-
-static const double pi = 3.14159265358979323846;
 
 static const ves_key keys[] = {
     {.name = "points",
@@ -54,18 +53,8 @@ static int highest(const ves_curve_input *input)
 
 static double factor(int mode, int half)
 {
-    double s = 2.0 * half / (pi * mode);
+    double s = 2.0 * half / (VES_PI * mode);
     return 2 * s * s * s * s;
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int c = 0; c < 3; c++) out[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
-}
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /* First cosine and sine mode of the curve as vectors. */
@@ -84,7 +73,7 @@ static void directions(const ves_curve_input *input, double d[2][3])
     double a[3], b[3];
     first_modes(input, a, b);
     for (int c = 0; c < 3; c++) d[0][c] = a[c], d[1][c] = b[c];
-    if (choice(input) == AXIS) cross(a, b, d[0]), cross(a, b, d[1]);
+    if (choice(input) == AXIS) ves_cross(a, b, d[0]), ves_cross(a, b, d[1]);
 }
 
 static ves_status prepare(const ves_curve_input *input, ves_arena *arena, void **state, ves_diag *diag)
@@ -101,7 +90,7 @@ static ves_status prepare(const ves_curve_input *input, ves_arena *arena, void *
                             "%d points need %d modes, but a curve may have at most %d here", points,
                             points / 2 + 1, input->limit);
     directions(input, d);
-    if (dot(d[0], d[0]) > 0 && dot(d[1], d[1]) > 0) return VES_OK;
+    if (ves_dot(d[0], d[0]) > 0 && ves_dot(d[1], d[1]) > 0) return VES_OK;
     return ves_diag_add(
         diag, VES_ERROR, VES_RANGE, input->args->mark,
         "a ridge needs a curve that goes round: this one has no first mode to take directions from");
@@ -118,7 +107,7 @@ static void eval(const ves_curve_input *input, double *out)
     int half = lowest(input), stride = ves_curve_stride(input->modes), top = highest(input);
     double by = ves_input_number(input, BY), d[2][3];
     directions(input, d);
-    double l0 = sqrt(dot(d[0], d[0])), l1 = sqrt(dot(d[1], d[1]));
+    double l0 = sqrt(ves_dot(d[0], d[0])), l1 = sqrt(ves_dot(d[1], d[1]));
     ves_modes_copy(input->input[0], input->input_modes[0], input->modes, out);
     for (int k = half; k <= top; k += 2 * half)
         for (int c = 0; c < 3; c++) {
@@ -163,7 +152,7 @@ static void scatter(const ves_curve_input *input, double d_adjoint[2][3], double
     double a[3], b[3], a_adjoint[3], b_adjoint[3];
     first_modes(input, a, b);
     for (int c = 0; c < 3; c++) a_adjoint[c] = d_adjoint[0][c], b_adjoint[c] = d_adjoint[1][c];
-    if (choice(input) == AXIS) cross(b, d_adjoint[0], a_adjoint), cross(d_adjoint[0], a, b_adjoint);
+    if (choice(input) == AXIS) ves_cross(b, d_adjoint[0], a_adjoint), ves_cross(d_adjoint[0], a, b_adjoint);
     for (int c = 0; input_adjoint && c < 3; c++) {
         input_adjoint[c * stride + 1] += a_adjoint[c];
         input_adjoint[c * stride + 2] += b_adjoint[c];
@@ -178,7 +167,7 @@ static void gradient(const ves_curve_input *input, const double *adjoint, double
     directions(input, d);
     transpose(input, adjoint, e_adjoint);
     for (int i = 0; i < 2; i++) {
-        double length = sqrt(dot(d[i], d[i])), along = dot(e_adjoint[i], d[i]) / length;
+        double length = sqrt(ves_dot(d[i], d[i])), along = ves_dot(e_adjoint[i], d[i]) / length;
         by_adjoint += along;
         for (int c = 0; c < 3; c++)
             e_adjoint[i][c] = by * (e_adjoint[i][c] - along * d[i][c] / length) / length;

@@ -6,11 +6,10 @@
  * test  de Boor; hits its points; partition of unity */
 #include <math.h>
 
+#include "base/vector.h"
 #include "curve/modes.h"
 
 enum { POINTS, INTERPOLATE, LEAST = 3 };
-
-static const double pi = 3.14159265358979323846;
 
 static const ves_key keys[] = {
     {.name = "points",
@@ -25,8 +24,8 @@ static const ves_key keys[] = {
 
 static double factor(int n, int points, bool interpolate)
 {
-    double s = ves_sinc(pi * n / points), value = s * s * s * s;
-    return interpolate ? 3 * value / (2 + cos(2 * pi * n / points)) : value;
+    double s = ves_sinc(VES_PI * n / points), value = s * s * s * s;
+    return interpolate ? 3 * value / (2 + cos(2 * VES_PI * n / points)) : value;
 }
 
 /* Cuts the table to the modes that constant control points need. */

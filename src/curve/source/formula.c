@@ -6,12 +6,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "curve/modes.h"
 
 enum { OF };
 enum { FIRST = 16, PROBES = 4, CHECKS = 5 };
 
-static const double two_pi = 6.283185307179586476925286766559;
 static const double golden =
     0.61803398874989484820;              /* irrational: checks and probes miss every regular pattern */
 static const double negligible = 1e-14;  /* of the largest coefficient: where a spectrum ends */
@@ -46,7 +46,7 @@ static bool sample(const work *w, int count)
     bool finite = true;
     for (int c = 0; c < 3; c++)
         for (int j = 0; j < count; j++) {
-            double v = two_pi * j / count;
+            double v = VES_TWO_PI * j / count;
             w->sample[c * count + j] = ves_formula_eval(w->formula[c], w->slot, &v, w->room);
             if (!isfinite(w->sample[c * count + j])) finite = false;
         }
@@ -58,7 +58,7 @@ static bool sample(const work *w, int count)
 static bool agrees(const work *w, int modes, double size)
 {
     for (int k = 1; k <= CHECKS; k++) {
-        double v = two_pi * fmod(k * golden, 1), out[3];
+        double v = VES_TWO_PI * fmod(k * golden, 1), out[3];
         ves_curve_point(w->coef, modes, v, 0, out);
         for (int c = 0; c < 3; c++)
             if (!(fabs(ves_formula_eval(w->formula[c], w->slot, &v, w->room) - out[c]) <= 1e-11 * size))
@@ -113,7 +113,7 @@ static int modes_for_all(const work *w, const ves_curve_input *input, int start)
 static ves_status check(const ves_curve_input *input, const work *w, double size, ves_diag *diag)
 {
     for (int c = 0; c < 3; c++) {
-        double begin = 0, end = two_pi;
+        double begin = 0, end = VES_TWO_PI;
         double gap = ves_formula_eval(w->formula[c], w->slot, &end, w->room) -
                      ves_formula_eval(w->formula[c], w->slot, &begin, w->room);
         if (!(fabs(gap) <= close_enough * size))
@@ -199,7 +199,7 @@ static void eval(const ves_curve_input *input, double *out)
     double *point = input->room, *rest = point + 3 * s->map.points;
     for (int c = 0; c < 3; c++)
         for (int j = 0; j < s->map.points; j++) {
-            double v = two_pi * j / s->map.points;
+            double v = VES_TWO_PI * j / s->map.points;
             point[3 * j + c] = ves_formula_eval(formula[c], input->number, &v, rest);
         }
     ves_modes_map_eval(&s->map, point, out);
@@ -216,7 +216,7 @@ static void gradient(const ves_curve_input *input, const double *adjoint, double
     ves_modes_map_gradient(&s->map, adjoint, seed);
     for (int c = 0; c < 3; c++)
         for (int j = 0; j < s->map.points; j++) {
-            double v = two_pi * j / s->map.points;
+            double v = VES_TWO_PI * j / s->map.points;
             ves_formula_gradient(formula[c], input->number, &v, seed[3 * j + c], number_adjoint, NULL, rest);
         }
 }
