@@ -91,6 +91,28 @@ static ves_status odd_eval(const ves_measure_input *in, double *value)
     return (ves_status)99;
 }
 
+/* To cut is the plan's part: it knows the violation that it cuts at. */
+static ves_status cutter_eval(const ves_measure_input *in, double *value)
+{
+    (void)in, (void)value;
+    return VES_CUT;
+}
+
+/* A value without a slope. */
+static ves_status blunt_eval(const ves_measure_input *in, double *value)
+{
+    (void)in;
+    *value = 1;
+    return VES_OK;
+}
+
+static void blunt_gradient(const ves_measure_input *in, double seed, const ves_adjoint *const *adjoint,
+                           double *number)
+{
+    (void)in, (void)seed, (void)number;
+    adjoint[0]->X[0][0] += NAN;
+}
+
 static int prepared, released;
 
 static ves_status holder_prepare(const ves_measure_input *in, void **state)
@@ -123,6 +145,14 @@ static const ves_measure DEAR = {
     .name = "dear", .about = "test", .unit = "1", .cost = 1, .surface = VES_X, .eval = dear_eval};
 static const ves_measure ODD = {
     .name = "odd", .about = "test", .unit = "1", .surface = VES_X, .eval = odd_eval};
+static const ves_measure CUTTER = {
+    .name = "cutter", .about = "test", .unit = "1", .surface = VES_X, .eval = cutter_eval};
+static const ves_measure BLUNT = {.name = "blunt",
+                                  .about = "test",
+                                  .unit = "1",
+                                  .surface = VES_X,
+                                  .eval = blunt_eval,
+                                  .gradient = blunt_gradient};
 static const ves_measure HOLDER = {.name = "holder",
                                    .about = "test",
                                    .unit = "1",
@@ -130,7 +160,7 @@ static const ves_measure HOLDER = {.name = "holder",
                                    .prepare = holder_prepare,
                                    .release = holder_release,
                                    .eval = holder_eval};
-static const ves_measure *const PLUGIN[] = {&STRETCH, &DEAR, &ODD, &HOLDER, NULL};
+static const ves_measure *const PLUGIN[] = {&STRETCH, &DEAR, &ODD, &CUTTER, &BLUNT, &HOLDER, NULL};
 
 /* Fourth-order differences, as in plan.c: 1e-7. */
 Test(verdicts, second_derivatives_without_curvature_have_the_right_gradient)
@@ -168,10 +198,57 @@ Test(verdicts, a_cheap_constraint_spares_the_dear_measure)
 
 Test(verdicts, a_foreign_status_is_no_number)
 {
-    bed b = bed_make(CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: odd\n"),
-                     PLUGIN);
-    double x = 1.4, arrays[24];
-    cr_expect_eq(judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_NO_NUMBER);
+    const char *const text[] = {
+        CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: odd\n"),
+        CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: cutter\n")};
+    for (int k = 0; k < 2; k++) {
+        bed b = bed_make(text[k], PLUGIN);
+        double x = 1.4, arrays[24];
+        ves_verdict verdict = judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays);
+        cr_expect(verdict.status == VES_NO_NUMBER && verdict.violation == HUGE_VAL, "case %d: %s, %g", k,
+                  ves_status_text(verdict.status), verdict.violation);
+        bed_clear(&b);
+    }
+}
+
+Test(verdicts, a_slope_that_is_no_number_is_noticed_in_objective_and_constraints)
+{
+    const char *const text[] = {
+        CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n", "minimize: blunt\n"),
+        CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n",
+             "minimize: area\nconstraints: [area <= 99, blunt <= 2]\n")};
+    for (int k = 0; k < 2; k++) {
+        bed b = bed_make(text[k], PLUGIN);
+        double x = 1.4, arrays[24];
+        cr_expect_eq(judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_OK);
+        cr_expect_eq(judged(&b, &x, VES_WANT_GRADIENT, HUGE_VAL, arrays).status, VES_NO_NUMBER, "case %d", k);
+        bed_clear(&b);
+    }
+}
+
+/* The disc has infinite tangents at its middle, where the looks of depth stand: nothing depends on them. */
+Test(verdicts, infinite_tangents_that_nothing_reads_do_not_spoil_the_gradient_of_a_scaled_shape)
+{
+    bed b = bed_make(
+        "vesica: 1\nvariables: {r: [0.5, 1, 2], k: [0.1, 0.3, 1]}\nquadrature: {u: 16, v: 24}\n"
+        "patches: {disc: {surface: {formula: [\"r*sqrt(u)*cos(v)\", \"r*sqrt(u)*sin(v)\", \"k*u\"]}}}\n"
+        "scale: {equation: area == 9}\nminimize: area\nconstraints: [depth <= 0.3]\n",
+        NULL);
+    double x[2] = {1, 0.3}, arrays[24], side[2][2];
+    judged(&b, x, VES_WANT_GRADIENT, HUGE_VAL, arrays);
+    double got[2] = {arrays[16], arrays[17]}, h = 1e-5;
+    for (int k = 0; k < 2; k++) {
+        for (int s = 0; s < 2; s++) {
+            double at[2] = {x[0], x[1]};
+            at[k] += s ? h : -h;
+            cr_assert_eq(judged(&b, at, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_OK);
+            side[k][s] = arrays[0];
+        }
+        double want = (side[k][1] - side[k][0]) / (2 * h);
+        /* differences: truncation h^2, rounding 1e-15 / h */
+        cr_expect(fabs(got[k] - want) < 1e-8 * (1 + fabs(want)), "got %.10g, differences %.10g", got[k],
+                  want);
+    }
     bed_clear(&b);
 }
 
@@ -210,6 +287,37 @@ Test(verdicts, an_objective_that_vanishes_can_be_proved)
     cr_expect(verdict.value < 1e-20 && fabs(verdict.gradient[0]) < 1e-12,
               "a proof may ask for gradients too");
     bed_clear(&b);
+}
+
+/* A ripple between the nodes. Depth is the same on every grid; what the constraint reads is not. The proof
+ * asks for 1 % of the size of a constraint, whatever its own tolerance. */
+#define RIPPLE(within)                                                                                       \
+    "vesica: 1\nvariables: {q: [1, 3, 40]}\nquadrature: {u: 8, v: 8}\n"                                      \
+    "patches: {p: {surface: {formula: [u, v, \"0.02*sin(q*v)\"]}, periodic: false}}\n"                       \
+    "validity: {jacobian: any, self_intersection: never}\nmeasures: {b: {willmore: {}}}\nminimize: depth\n"  \
+    "constraints: [{require: " within "}]\n"
+
+Test(verdicts, a_proof_compares_violations_in_units_of_their_sizes)
+{
+    const struct {
+        const char *text;
+        double q;
+        ves_status want;
+    } table[] = {
+        {RIPPLE("b <= 0.1"), 4, VES_OK},
+        {RIPPLE("b <= 0.1"), 4.5, VES_COARSE}, /* 8 % below its limit, 21 % above on the finer grid */
+        {RIPPLE("b <= 0.1, within: 0.01"), 4.5, VES_COARSE},
+        {RIPPLE("b <= 0.1, within: 1e-11"), 4.5, VES_COARSE},
+        {RIPPLE("b <= 0.001588"), 1.5, VES_OK}, /* 3e-5 of the start above on the finer grid */
+        {RIPPLE("b <= 0.001588, within: 1e-11"), 1.5, VES_OK},
+        {RIPPLE("0.001588 >= b, within: 1"), 1.5, VES_OK}};
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        bed b = bed_make(table[k].text, NULL);
+        double arrays[24];
+        ves_status got = judged(&b, &table[k].q, VES_WANT_PROOF, HUGE_VAL, arrays).status;
+        cr_expect_eq(got, table[k].want, "case %zu: %s", k, ves_status_text(got));
+        bed_clear(&b);
+    }
 }
 
 Test(verdicts, no_number_anywhere_is_noticed)

@@ -149,8 +149,9 @@ typedef struct ves_measure {
     /* Doubles of scratch for this instance; NULL: none. */
     size_t (*room)(const ves_measure_input *input);
 
-    /* VES_OK, or a positive status: this candidate cannot be measured; *value untouched. A positive status
-     * that vesica/status.h does not list counts as VES_NO_NUMBER, as does a value that is not finite. */
+    /* VES_OK, or a positive status: this candidate cannot be measured; *value untouched. VES_CUT, which is
+     * the plan's own, and a positive status that vesica/status.h does not list count as VES_NO_NUMBER, as
+     * does a value that is not finite. */
     ves_status (*eval)(const ves_measure_input *input, double *value);
 
     /* Adds seed * dJ/d(plane) to adjoint[i] for each sample i, and seed * dJ/d(number) to number_adjoint

@@ -43,9 +43,10 @@ void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
 double ves_plan_grid(const ves_plan *plan, int quadrature[2]);
 
 /* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation. With
- * VES_WANT_PROOF the candidate is also measured at level 1, must agree within 1 %, and must not cross itself
- * (validity: self_intersection). The arrays of verdict are the caller's. A candidate that fails is
- * verdict->status > 0; returns negative for faults alone, VES_RANGE: no such level. */
+ * VES_WANT_PROOF the candidate is also measured at level 1, must agree within 1 %, must not violate a
+ * constraint by 1 % of its size more, and must not cross itself (validity: self_intersection). The arrays of
+ * verdict are the caller's. A candidate that fails is verdict->status > 0; returns negative for faults alone,
+ * VES_RANGE: no such level. */
 ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict);
 
 /* The two sides of a constraint (ves_problem_constraint tells its text and relation). */

@@ -19,7 +19,8 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
         if (!plan->runs[which][m] || (p->measure[m].measure->cost > 0) != dear) continue;
         ves_status status =
             p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]);
-        if (status > VES_OUTSIDE) status = VES_NO_NUMBER; /* a plugin's own word for "cannot be measured" */
+        /* a plugin's own word for "cannot be measured"; only the plan cuts */
+        if (status > VES_OUTSIDE || status == VES_CUT) status = VES_NO_NUMBER;
         VES_TRY(status);
         if (!isfinite(plan->value[m])) return VES_NO_NUMBER;
     }

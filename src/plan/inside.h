@@ -85,13 +85,14 @@ struct ves_plan {
     double *side;      /* [patches] +1: Xu x Xv points outward */
     int *part;         /* [patches] first patch of the connected part that it belongs to */
     plan_level level[LEVELS];
-    bool *runs[PROGRAMS]; /* [measures] */
-    double *value;        /* [measures] */
-    double *fine;         /* [measures] on the finer grid, while a candidate is proved */
-    double *size;         /* [constraints] the scale of each violation, fixed at the start */
-    bool *cheap;          /* [constraints] reads no dear measure */
-    bool any_dear;        /* some judged measure is dear */
-    double cutoff;        /* of the question at hand */
+    bool *runs[PROGRAMS];   /* [measures] */
+    double *value;          /* [measures] */
+    double *fine;           /* [measures] on the finer grid, while a candidate is proved */
+    double *fine_violation; /* [constraints] the same, in units of their sizes */
+    double *size;           /* [constraints] the scale of each violation, fixed at the start */
+    bool *cheap;            /* [constraints] reads no dear measure */
+    bool any_dear;          /* some judged measure is dear */
+    double cutoff;          /* of the question at hand */
     double similarity;
     double *formula_room;
     double *measure_adjoint;

@@ -75,8 +75,9 @@ static ves_status gradients(ves_plan *plan, int index, ves_verdict *verdict)
     for (int k = 0; k < p->constraints && verdict->jacobian; k++)
         memcpy(verdict->jacobian + (size_t)(k * n), plan->rows + (size_t)((1 + k) * p->slots),
                sizeof(double) * (size_t)n);
-    for (int k = 0; k < n; k++)
-        if (!isfinite(verdict->gradient[k])) return VES_NO_NUMBER;
+    for (int o = 0; o < outputs; o++)
+        for (int k = 0; k < n; k++)
+            if (!isfinite(plan->rows[(size_t)(o * p->slots + k)])) return VES_NO_NUMBER;
     return VES_OK;
 }
 
@@ -104,7 +105,8 @@ static ves_status judge(ves_plan *plan, const ves_ask *ask, int index, ves_verdi
 
 /* The finer grid must tell the same story, or the optimizer has found a hole between the nodes. Two grids
  * agree when the objective does, or, should it be near zero by cancellation, when every measure that is
- * judged does. 1 %: a hole is a matter of factors, and a coarse grid chosen by hand is the user's right. */
+ * judged does. 1 %: a hole is a matter of factors, and a coarse grid chosen by hand is the user's right. No
+ * constraint may be violated by 1 % of its size more than on the coarse one, whatever its `within`. */
 static const double AGREE = 1e-2;
 
 static bool near(double a, double b)
@@ -119,6 +121,19 @@ static bool measures_near(const ves_plan *plan, const double *fine)
     return true;
 }
 
+static void violations(ves_plan *plan, double *out)
+{
+    for (int k = 0; k < plan->problem->constraints; k++)
+        out[k] = violation(&plan->problem->constraint[k], excess(plan, k));
+}
+
+static bool violations_near(ves_plan *plan, const double *fine)
+{
+    for (int k = 0; k < plan->problem->constraints; k++)
+        if (!(fine[k] <= violation(&plan->problem->constraint[k], excess(plan, k)) + AGREE)) return false;
+    return true;
+}
+
 /* First the fine grid and the mesh, then the question itself: what is left in the plan and in the verdict is
  * the coarse one. */
 static ves_status prove(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict)
@@ -128,11 +143,12 @@ static ves_status prove(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict
     only.want &= ~(unsigned)(VES_WANT_PROOF | VES_WANT_GRADIENT);
     VES_TRY(judge(plan, &only, 1, &fine));
     memcpy(plan->fine, plan->value, sizeof(double) * (size_t)plan->problem->measures);
+    violations(plan, plan->fine_violation);
     if (plan->problem->validity.self_intersection) VES_TRY(ves_plan_crosses(plan));
     only.want = ask->want & ~(unsigned)VES_WANT_PROOF;
     VES_TRY(judge(plan, &only, 0, verdict));
     bool agree = near(verdict->value, fine.value) || measures_near(plan, plan->fine);
-    return agree && fine.violation <= verdict->violation + AGREE ? VES_OK : VES_COARSE;
+    return agree && violations_near(plan, plan->fine_violation) ? VES_OK : VES_COARSE;
 }
 
 static ves_status failed(ves_status status, ves_verdict *verdict)

@@ -81,6 +81,7 @@ static ves_status memory_take(ves_plan *plan)
     plan->value = ves_arena_doubles(a, (size_t)p->measures);
     plan->fine = ves_arena_doubles(a, (size_t)p->measures);
     plan->measure_adjoint = ves_arena_doubles(a, (size_t)p->measures);
+    plan->fine_violation = ves_arena_doubles(a, (size_t)p->constraints);
     plan->size = ves_arena_doubles(a, (size_t)p->constraints);
     plan->cheap = ves_arena_take(a, (size_t)p->constraints, sizeof *plan->cheap);
     plan->cutoff = HUGE_VAL;
@@ -97,10 +98,11 @@ static ves_status memory_take(ves_plan *plan)
     plan->part = ves_arena_take(a, (size_t)p->patches, sizeof *plan->part);
     plan->told = ves_arena_doubles(a, (size_t)p->measures);
     plan->sides = ves_arena_take(a, (size_t)p->constraints, sizeof *plan->sides);
-    return plan->block && plan->block_adjoint && plan->value && plan->fine && plan->measure_adjoint &&
-                   plan->size && plan->cheap && plan->formula_room && plan->rows && plan->row_similarity &&
-                   plan->unit_row && plan->field && plan->field_adjoint && plan->form && plan->patch &&
-                   plan->sheet && plan->side && plan->part && plan->told && plan->sides
+    return plan->block && plan->block_adjoint && plan->value && plan->fine && plan->fine_violation &&
+                   plan->measure_adjoint && plan->size && plan->cheap && plan->formula_room && plan->rows &&
+                   plan->row_similarity && plan->unit_row && plan->field && plan->field_adjoint &&
+                   plan->form && plan->patch && plan->sheet && plan->side && plan->part && plan->told &&
+                   plan->sides
                ? VES_OK
                : VES_MEMORY;
 }

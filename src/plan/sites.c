@@ -331,7 +331,8 @@ static void adjoint_make(ves_plan *plan, plan_site *s, const ves_tile *tile, con
 }
 
 /* X = similarity X0: the adjoint of X0 is similarity times that of X, and d J / d similarity their inner
- * product with X0. */
+ * product with X0, over what something depends on: a field that nothing reads may be infinite (at the tip of
+ * sqrt(u), say). */
 static double tile_unscale(const ves_tile *tile, double similarity, const ves_tile_planes *field,
                            ves_tile_planes *adjoint)
 {
@@ -341,7 +342,7 @@ static double tile_unscale(const ves_tile *tile, double similarity, const ves_ti
             const double *x = field->at[f * 3 + c];
             double *g = adjoint->at[f * 3 + c];
             for (int k = 0; k < tile->rows * VES_LANES; k++) {
-                sum += g[k] * x[k];
+                sum += g[k] != 0 ? g[k] * x[k] : 0;
                 g[k] *= similarity;
             }
         }
