@@ -7,7 +7,7 @@
 #include "measure/hill.h"
 #include "measure/summit.h"
 
-enum { CHUNK = 64, STEPS = 12 };
+enum { CHUNK = 64, STEPS = 30 };
 
 static const double AROUND = 6.283185307179586;
 
@@ -98,58 +98,146 @@ static int look(const ves_measure_input *input, int number, const ves_extreme *e
     return input->look(input, e->surface, number, u, v);
 }
 
-/* Newton's steps, kept within the size of a cell. Where they are short the Taylor polynomial is exact. */
-static ves_extreme go_up(const ves_measure_input *input, int number, const double d[3], double rounding,
-                         ves_extreme e)
+/* The node itself, without what its polynomial promises. */
+static ves_extreme only_node(const ves_measure_input *input, ves_extreme e, const double d[3])
 {
-    static const double SHORT = 1e-4; /* its third power is the error */
+    e.du = e.dv = 0;
+    e.value = along(input->sample[e.sample]->X, e.node, d);
+    return e;
+}
+
+/* Where a step from `e` leads. */
+static ves_extreme next_init(const ves_measure_input *input, const ves_extreme *e, const double step[2])
+{
+    bool periodic = input->sample[e->surface]->periodic;
+    ves_extreme next = {.surface = e->surface, .node = 4, .at = {e->at[0] + step[0], e->at[1] + step[1]}};
+    next.at[0] = fmin(fmax(next.at[0], 0), 1);
+    if (!periodic) next.at[1] = fmin(fmax(next.at[1], 0), AROUND);
+    return next;
+}
+
+static bool within(const double step[2], double length)
+{
+    return fabs(step[0]) < length && fabs(step[1]) < length;
+}
+
+/* From a node up, first to where `e` promises: steps to the top of the Taylor polynomial, no farther than
+ * `reach`. Where the surface is lower than before, the reach is halved: the result was seen, never promised.
+ * One step more than its height asks for, since a slope feels the way that is left, not its square. here: the
+ * look rests on the result. */
+static ves_extreme go_up(const ves_measure_input *input, int number, const double d[3], double rounding,
+                         ves_extreme e, bool *here)
+{
+    static const double SHORT = 1e-4, NOTHING = 1e-9; /* what is level has a far top by rounding alone */
     const ves_samples *s = input->sample[e.surface];
     ves_cell cell = ves_cell_init(s, e.node);
-    double reach[2], best = -HUGE_VAL;
-    for (int k = 0; k < 2; k++) reach[k] = ves_cell_reach(cell.lo[k], cell.hi[k]);
+    ves_quadric f = quadric_init(s, e.node, d);
+    double cell_reach[2], reach[2], step[2] = {e.du, e.dv}, highest = f.value;
+    for (int k = 0; k < 2; k++) reach[k] = cell_reach[k] = ves_cell_reach(cell.lo[k], cell.hi[k]);
+    bool last = false;
+    e = only_node(input, e, d);
+    *here = true;
     for (int k = 0; k < STEPS; k++) {
-        ves_extreme next = {.surface = e.surface, .node = 4, .at = {e.at[0] + e.du, e.at[1] + e.dv}};
-        next.at[0] = fmin(fmax(next.at[0], 0), 1);
-        if (!s->periodic) next.at[1] = fmin(fmax(next.at[1], 0), AROUND);
+        ves_extreme next = next_init(input, &e, step);
         next.sample = look(input, number, &next);
-        if (next.sample < 0) return e;
-        ves_quadric f = quadric_init(input->sample[next.sample], next.node, d);
-        if (!(f.value >= best - rounding)) { /* back */
-            look(input, number, &e);
-            return e;
+        next.value = next.sample < 0 ? NAN : along(input->sample[next.sample]->X, next.node, d);
+        *here = next.value >= highest - rounding;
+        if (*here) {
+            e = next;
+            f = quadric_init(input->sample[e.sample], e.node, d);
+            highest = fmax(highest, e.value);
         }
-        ves_cell box = ves_hill_box(s, next.at, reach);
-        double top[2];
-        best = f.value;
-        next.value = ves_quadric_top(&f, &box, top);
-        bool near = fabs(top[0]) < SHORT && fabs(top[1]) < SHORT, level = next.value <= f.value + rounding;
-        if (near || !level)
-            next.du = top[0], next.dv = top[1]; /* a far top of what is level is but rounding */
-        e = next;
-        if (near || level) return e;
+        for (int c = 0; c < 2; c++)
+            reach[c] = *here ? fmin(2 * reach[c], cell_reach[c]) : fmin(reach[c], fabs(step[c])) / 2;
+        ves_cell box = ves_hill_box(s, e.at, reach);
+        bool level = ves_quadric_top(&f, &box, step) <= f.value + rounding;
+        if (level && (last || !within(step, SHORT) || within(step, NOTHING))) break;
+        last = level;
     }
     return e;
 }
 
-/* From the highest hills up; the last look is at the summit. */
-static void summit(const ves_measure_input *input, int number, const double d[3], const double *top,
-                   double rounding, ves_extreme *best)
+/* --- where to begin --- */
+
+/* The node that has the highest value. */
+static ves_extreme highest_node(const ves_measure_input *input, const double d[3])
 {
-    ves_hill hill[VES_HILLS];
-    int count = ves_hills_find(input, top, rounding, hill);
-    bool fresh = false;
-    ves_extreme found = {.value = -HUGE_VAL};
-    for (int k = 0; k < count; k++) {
-        ves_extreme e = cell_top(input, hill[k].sample, hill[k].node, d);
-        double gain = e.value - along(input->sample[e.sample]->X, e.node, d);
-        if (e.value + gain < found.value) continue;
-        e = go_up(input, number, d, rounding, e);
-        fresh = e.value > found.value;
-        if (fresh) found = e;
+    ves_extreme best = {.sample = -1, .value = -HUGE_VAL};
+    for (int i = 0; i < input->samples; i++) {
+        const ves_samples *s = input->sample[i];
+        for (int n = 0; s->site == VES_SITE_SURFACE && n < s->count; n++) {
+            double value = along(s->X, n, d);
+            if (value > best.value) best = (ves_extreme){.sample = i, .node = n, .value = value};
+        }
     }
-    if (!(found.value > -HUGE_VAL)) return;
-    if (!fresh && found.sample != found.surface) found.sample = look(input, number, &found);
-    if (found.sample >= 0) *best = found;
+    return best;
+}
+
+/* The row that promises most at an end: by the Taylor polynomial of its outer node, by the parabola through
+ * its three outer nodes, and by as much more as these differ. */
+static ves_extreme end_top(const ves_measure_input *input, int sample, int end, const double d[3])
+{
+    const ves_samples *s = input->sample[sample];
+    double share[3], du, dv[2], promised = -HUGE_VAL;
+    int i = end < 0 ? 0 : s->nu - 1, first = ves_hill_end(s, end, share), row = 0;
+    ves_cell_u(s, i, end < 0 ? &du : &dv[0], end < 0 ? &dv[0] : &du);
+    for (int j = 0; j < s->nv; j++) {
+        ves_quadric f = quadric_init(s, j * s->nu + i, d);
+        double taylor = ves_quadric_at(&f, du, 0), parabola = 0;
+        for (int k = 0; k < 3; k++) parabola += share[k] * along(s->X, j * s->nu + first + k, d);
+        double most = fmax(f.value, fmax(taylor, parabola)), least = fmin(f.value, fmin(taylor, parabola));
+        if (2 * most - least > promised) promised = 2 * most - least, row = j;
+    }
+    return (ves_extreme){.surface = sample,
+                         .at = {s->u[i], s->v[row]},
+                         .sample = sample,
+                         .node = row * s->nu + i,
+                         .du = du,
+                         .value = promised};
+}
+
+typedef struct climb {
+    const ves_measure_input *input;
+    int number;
+    const double *d;
+    double rounding;
+    ves_extreme best;
+    bool here; /* the look rests on it */
+} climb;
+
+static void climb_from(climb *c, const ves_extreme *e)
+{
+    bool here, same = c->best.sample >= 0 && c->best.surface == e->surface;
+    ves_extreme up = go_up(c->input, c->number, c->d, c->rounding, *e, &here);
+    if (up.value > c->best.value)
+        c->best = up, c->here = here;
+    else if (same)
+        c->here = false;
+}
+
+/* From the highest hills up, and from what nodes do not show of the ends; no lower than any node. */
+static void summit(climb *c, const double *top, double most)
+{
+    const ves_measure_input *input = c->input;
+    ves_hill hill[VES_HILLS];
+    int count = ves_hills_find(input, top, c->rounding, hill);
+    for (int k = 0; k < count; k++) {
+        ves_extreme e = cell_top(input, hill[k].sample, hill[k].node, c->d);
+        double gain = e.value - along(input->sample[e.sample]->X, e.node, c->d);
+        if (e.value + gain >= c->best.value) climb_from(c, &e);
+    }
+    for (int i = 0; i < input->samples; i++)
+        for (int end = -1; end <= 1 && input->sample[i]->site == VES_SITE_SURFACE; end += 2) {
+            if (input->sample[i]->nu < 3) continue;
+            ves_extreme e = end_top(input, i, end, c->d);
+            bool seen = c->best.surface == i && fabs(c->best.at[0] - (end > 0)) < DBL_EPSILON;
+            if (!seen && e.value > c->best.value) climb_from(c, &e);
+        }
+    if (!(c->best.value >= most)) {
+        ves_extreme node = highest_node(input, c->d), e = cell_top(input, node.sample, node.node, c->d);
+        climb_from(c, &e);
+    }
+    if (!c->here && c->best.sample != c->best.surface) look(input, c->number, &c->best);
 }
 
 ves_status ves_extreme_find(const ves_measure_input *input, int number, const double d[3], double *room,
@@ -175,7 +263,11 @@ ves_status ves_extreme_find(const ves_measure_input *input, int number, const do
     }
     if (extreme->sample < 0 || !isfinite(extreme->value)) return VES_NO_NUMBER;
     *extreme = cell_top(input, extreme->sample, extreme->node, d);
-    if (input->look) summit(input, number, d, room, rounding, extreme);
+    if (!input->look) return VES_OK;
+    climb c = {.input = input, .number = number, .d = d, .rounding = rounding};
+    c.best = (ves_extreme){.sample = -1, .value = -HUGE_VAL};
+    summit(&c, room, most);
+    *extreme = c.best;
     return VES_OK;
 }
 

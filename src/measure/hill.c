@@ -81,6 +81,18 @@ int ves_hills_find(const ves_measure_input *input, const double *height, double 
     return count;
 }
 
+int ves_hill_end(const ves_samples *s, int end, double share[3])
+{
+    int first = end < 0 ? 0 : s->nu - 3;
+    const double *x = s->u + first;
+    double u = end > 0;
+    for (int k = 0; k < 3; k++) {
+        share[k] = 1;
+        for (int m = 0; m < 3; m++) share[k] *= m == k ? 1 : (u - x[m]) / (x[k] - x[m]);
+    }
+    return first;
+}
+
 ves_cell ves_hill_box(const ves_samples *s, const double at[2], const double reach[2])
 {
     ves_cell box;

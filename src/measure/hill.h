@@ -41,6 +41,10 @@ int ves_hills_find(const ves_measure_input *input, const double *height, double 
 /* Into a list of `count`, highest first; the lowest makes room. */
 void ves_hill_insert(ves_hill hill[VES_HILLS], int *count, ves_hill made);
 
+/* The parabola through the three nodes of a row next to an end (-1: u = 0, 1: u = 1) is there the sum of
+ * share[k] times node first + k; returns first. Needs nu > 2. */
+int ves_hill_end(const ves_samples *s, int end, double share[3]);
+
 /* Where a climb may go, seen from (u, v): not beyond the patch, nor farther than `reach`. */
 ves_cell ves_hill_box(const ves_samples *s, const double at[2], const double reach[2]);
 

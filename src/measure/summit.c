@@ -235,14 +235,9 @@ static void rows_about(const ves_samples *s, int j, int row[3])
 /* At the end of row j, by the parabola through the three nodes next to it. */
 static double at_end(const ves_samples *s, const double *height, int j, int end)
 {
-    const double *f = height + j * s->nu, *x = s->u;
-    int first = end < 0 ? 0 : s->nu - 3;
-    double u = end > 0, value = 0;
-    for (int k = first; k < first + 3; k++) {
-        double share = 1;
-        for (int m = first; m < first + 3; m++) share *= m == k ? 1 : (u - x[m]) / (x[k] - x[m]);
-        value += share * f[k];
-    }
+    double share[3], value = 0;
+    const double *f = height + j * s->nu + ves_hill_end(s, end, share);
+    for (int k = 0; k < 3; k++) value += share[k] * f[k];
     return value;
 }
 

@@ -94,13 +94,14 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
                      double *number_adjoint)
 {
     double p = ves_argument_number(input, SMOOTH);
+    if (p > 0) {
+        smooth_gradient(input, p, seed, adjoint, number_adjoint);
+        return;
+    }
     const double *place = place_of(input);
     ves_pointwise f = ves_pointwise_init(input);
     int i = (int)place[0];
-    if (p > 0)
-        smooth_gradient(input, p, seed, adjoint, number_adjoint);
-    else
-        ves_pointwise_gradient(&f, input->sample[i], (int)place[1], seed, adjoint[i], number_adjoint);
+    ves_pointwise_gradient(&f, input->sample[i], (int)place[1], seed, adjoint[i], number_adjoint);
 }
 
 const ves_measure ves_measure_max = {.name = "max",

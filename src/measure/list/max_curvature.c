@@ -95,14 +95,15 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
                      double *number_adjoint)
 {
     double p = ves_argument_number(input, SMOOTH);
-    int i = (int)input->room[0], n = (int)input->room[1];
     if (p > 0) {
         smooth_gradient(input, p, seed, adjoint, number_adjoint);
-    } else if (adjoint[i]->H) {
-        ves_principal k = ves_principal_init(input->sample[i]->H[n], input->sample[i]->K[n]);
-        double g1 = k.k1 + k.k2 >= 0 ? seed : 0, g2 = k.k1 + k.k2 >= 0 ? 0 : -seed;
-        ves_principal_gradient(&k, g1, g2, &adjoint[i]->H[n], &adjoint[i]->K[n]);
+        return;
     }
+    int i = (int)input->room[0], n = (int)input->room[1];
+    if (!adjoint[i]->H) return;
+    ves_principal k = ves_principal_init(input->sample[i]->H[n], input->sample[i]->K[n]);
+    double g1 = k.k1 + k.k2 >= 0 ? seed : 0, g2 = k.k1 + k.k2 >= 0 ? 0 : -seed;
+    ves_principal_gradient(&k, g1, g2, &adjoint[i]->H[n], &adjoint[i]->K[n]);
 }
 
 const ves_measure ves_measure_max_curvature = {.name = "max_curvature",
