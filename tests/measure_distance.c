@@ -1,8 +1,9 @@
-/* Distances between places and curves: closed forms, a dense search, the order of convergence. */
+/* Distances between places and curves: closed forms, a dense search, on grids of any fineness. */
 #include "measure/approach.h"
+#include "measure/ring.h"
 #include "samples.h"
 
-/* Where the nearest points are nodes or places, only rounding is left. */
+/* Curves are exact between their nodes: only rounding is left. */
 static const double ROUNDING = 1e-12;
 
 static double distance_of(rig *r)
@@ -27,8 +28,7 @@ Test(measure_distance, distances_between_places_and_circles_meet_their_closed_fo
         rig_open(&r);
         rig_ring(&r, &a, 0, 32, 0);
         rig_ring(&r, &b, 0, 24, 0);
-        /* The nearest pair of nodes is less than 1/1000 apart in angle, there the remainder is (1e-3)^3. */
-        near(distance_of(&r), hypot(1.713, 1.129 - 0.731), 1e-5, "coaxial circles");
+        near(distance_of(&r), hypot(1.713, 1.129 - 0.731), ROUNDING, "coaxial circles");
         rig_close(&r);
     }
 }
@@ -54,15 +54,14 @@ static double ring_error(uint64_t seed, int n)
     return fabs(got - want) / fmax(want, 0.1);
 }
 
-Test(measure_distance, the_distance_from_a_place_to_a_circle_is_of_order_3)
+Test(measure_distance, the_distance_from_a_place_to_a_circle_is_exact_on_any_grid)
 {
-    double e[3] = {0};
-    for (int k = 0; k < 3; k++)
-        for (uint64_t seed = 1; seed <= 80; seed++) e[k] = fmax(e[k], ring_error(seed, 16 << k));
-    for (int k = 0; k < 2; k++) {
-        double order = log2(e[k] / e[k + 1]);
-        cr_assert(order > 2.7, "order %.3f (errors %.2e, %.2e)", order, e[k], e[k + 1]);
-    }
+    static const int nodes[] = {8, 9, 16, 31, 64};
+    for (int k = 0; k < 5; k++)
+        for (uint64_t seed = 1; seed <= 80; seed++) {
+            double error = ring_error(seed, nodes[k]);
+            cr_expect(error < ROUNDING, "%d nodes, seed %d: off by %.2e", nodes[k], (int)seed, error);
+        }
 }
 
 /* Slow oracle: a dense search over both curves, refined around its best pair. */
@@ -91,31 +90,55 @@ Test(measure_distance, the_distance_between_skew_circles_agrees_with_a_dense_sea
         body b = body_moved(body_init(frustum, -1, 1.129, 1.129, 0), seed + 1000);
         rig r;
         rig_open(&r);
-        rig_ring(&r, &a, 0, 128, 0);
-        rig_ring(&r, &b, 0, 128, 0);
-        /* third order: (2 pi / 128 / 2)^3 / 6 of the largest third derivative, about 8 * 0.1 + 1.1 */
-        near(distance_of(&r), dense(&a, &b), 5e-6, "skew circles");
+        rig_ring(&r, &a, 0, 32, 0);
+        rig_ring(&r, &b, 0, 48, 0);
+        near(distance_of(&r), dense(&a, &b), ROUNDING, "skew circles");
         rig_close(&r);
     }
 }
 
-Test(measure_distance, the_distance_of_crossing_curves_vanishes_at_order_3)
+Test(measure_distance, the_distance_of_crossing_curves_vanishes)
 {
-    double e[3] = {0};
-    for (int k = 0; k < 3; k++)
+    for (int n = 8; n <= 64; n *= 2)
         for (int turn = 0; turn < 20; turn++) {
             body a = body_init(frustum, -1, 1, 1, 0), b = a;
             double w = 0.4 + 0.11 * turn; /* about x: the circles meet at (+-1, 0, 0) */
             b.turn[1][1] = b.turn[2][2] = cos(w), b.turn[2][1] = sin(w), b.turn[1][2] = -sin(w);
             rig r;
             rig_open(&r);
-            rig_ring(&r, &a, 0, 16 << k, 0);
-            rig_ring(&r, &b, 0, 24 << k, 0);
-            e[k] = fmax(e[k], distance_of(&r));
+            rig_ring(&r, &a, 0, n, 0);
+            rig_ring(&r, &b, 0, n + n / 2, 0);
+            near(distance_of(&r), 0, ROUNDING, "crossing circles");
+            rig_gradient(&r, 1);
+            for (int k = 0; k < n; k++) cr_expect(r.back[0].at[0][k] == 0, "a slope where there is a kink");
             rig_close(&r);
         }
-    cr_assert(e[0] < 0.01 && log2(e[0] / e[1]) > 2.7 && log2(e[1] / e[2]) > 2.7, "distances %.2e, %.2e, %.2e",
-              e[0], e[1], e[2]);
+}
+
+/* Waves up to the highest mode that n nodes hold, between the nodes and all around. */
+Test(measure_distance, nodes_say_all_of_a_curve)
+{
+    rig r;
+    rig_open(&r);
+    for (int n = 3; n <= 40; n++) {
+        ves_grid grid;
+        cr_assert(ves_grid_ring(0, n, true, &r.arena, &grid) == VES_OK);
+        ves_samples s = {.nu = 1, .nv = n, .count = n, .periodic = true, .v = grid.v};
+        for (int k = 0; k <= (n - 1) / 2; k++)
+            for (int step = -100; step <= 100; step++) {
+                double weight[3 * 40], v = grid.v[n / 3] + 0.0717 * step, sum[3] = {0};
+                if (step == 0) v = grid.v[n / 3];
+                if (step == 1) v = grid.v[n / 3] + 1e-6;
+                ves_ring_point p = ves_ring_near(&s, (ves_ring_point){n / 3, v - grid.v[n / 3]});
+                ves_ring_weights(&s, p, weight);
+                for (int d = 0; d < 3; d++)
+                    for (int j = 0; j < n; j++) sum[d] += weight[d * n + j] * cos(k * grid.v[j] + 0.3);
+                near(sum[0], cos(k * v + 0.3), ROUNDING, "value");
+                near(sum[1] / n, -k * sin(k * v + 0.3) / n, 1e-6, "slope");
+                near(sum[2] / (n * n), -k * k * cos(k * v + 0.3) / (n * n), 1e-6, "bend");
+            }
+    }
+    rig_close(&r);
 }
 
 Test(measure_distance, a_point_curve_is_a_place)
@@ -126,7 +149,7 @@ Test(measure_distance, a_point_curve_is_a_place)
     rig_open(&r);
     rig_ring(&r, &ring, 0, 64, 0);
     rig_ring(&r, &point, 0, 8, 0);
-    near(distance_of(&r), hypot(0.9, 1.129 - 0.4), 1e-5, "point curve to circle"); /* (pi / 64)^3 / 6 */
+    near(distance_of(&r), hypot(0.9, 1.129 - 0.4), ROUNDING, "point curve to circle");
     rig_close(&r);
 }
 

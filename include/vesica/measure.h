@@ -39,7 +39,8 @@ typedef enum ves_site {
     VES_SITE_SURFACE, /* the quadrature nodes of a patch: everything */
     VES_SITE_CAP, /* an end curve closed by a flat fan to its mean point; nodes along v (nu = 1): everything,
                      but of the patch at that end. The fan itself is what X and Xv make of it */
-    VES_SITE_CURVE, /* a curve that a CURVE or PLACE key names; nodes along v (nu = 1): X, Xv, Xvv */
+    VES_SITE_CURVE, /* a curve that a CURVE or PLACE key names; nodes along v (nu = 1): X, Xv, Xvv. They are
+                       evenly spread, more than two for each of its Fourier modes, and so say all of it */
     VES_SITE_PLACE, /* one named point of a patch (nu = nv = 1): X, Xv, Xvv */
     VES_SITE_LOOK   /* 3 x 3 points of a patch wherever the measure wants them: what it asks of surfaces */
 } ves_site;

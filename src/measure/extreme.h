@@ -2,9 +2,11 @@
  *
  * In the cell of every node X is its Taylor polynomial of degree 2 about the node: that tells which cells may
  * hold the farthest point, and where, up to third order in the spacing. From there Newton's steps go on, by
- * looks at the surface itself (measure/hill.h): the result is exact, on the ends of patches too. Caps need no
- * look: they lie within the hull of their curves. Derivative: the maximiser is stationary, or held by an end
- * of the patch, so du and dv count as constants (envelope theorem). */
+ * looks at the surface itself (measure/hill.h), on the ends of patches too. The value is one that was seen,
+ * at a look or a node, and no node lies beyond it; where the grid resolves the surface it is the largest, to
+ * rounding. (Without looks it is what the polynomial promises.) Caps need no look: they lie within the hull
+ * of their curves. Derivative: the maximiser is stationary, or held by an end of the patch, so its u and v
+ * count as constants (envelope theorem). test  closed forms; what no grid resolves; differences */
 #ifndef VES_MEASURE_EXTREME_H
 #define VES_MEASURE_EXTREME_H
 
@@ -20,7 +22,7 @@ typedef struct ves_extreme {
     int surface;      /* sample of its surface */
     double at[2];     /* u, v of the node */
     int sample, node; /* of the surface or of a look */
-    double du, dv;    /* from the node */
+    double du, dv;    /* from the node; with looks 0 */
     double value;     /* d . X */
 } ves_extreme;
 

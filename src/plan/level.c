@@ -58,6 +58,13 @@ static ves_status cap_add(ves_plan *plan, plan_level *l, int k, int *index)
     return VES_OK;
 }
 
+/* So many that they say all of the curve. */
+static int curve_nodes(const ves_plan *plan, const plan_level *l, int curve)
+{
+    int enough = 2 * ves_curves_modes(plan->curves, curve) + 2, usual = 2 * l->quadrature[1];
+    return usual > enough ? usual : enough;
+}
+
 static ves_status reference_add(ves_plan *plan, plan_level *l, const ves_arg *arg, int *index)
 {
     plan_site s = {.patch = -1, .curve = -1};
@@ -76,7 +83,7 @@ static ves_status reference_add(ves_plan *plan, plan_level *l, const ves_arg *ar
     if (arg->place)
         VES_TRY(ves_grid_given(1, &at[0], 1, &at[1], false, &plan->arena, &s.grid));
     else
-        VES_TRY(ves_grid_ring(0, 2 * l->quadrature[1], true, &plan->arena, &s.grid));
+        VES_TRY(ves_grid_ring(0, curve_nodes(plan, l, s.curve), true, &plan->arena, &s.grid));
     *index = l->sites;
     l->site[l->sites++] = s;
     return VES_OK;
