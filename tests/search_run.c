@@ -139,6 +139,35 @@ Test(search_run, an_evaluator_that_always_fails_is_reported)
     cr_expect(r->any == false && r->feasible == false && r->optima == 0);
     cr_expect(r->failed == r->evaluations && r->evaluations <= 300, "%ld of %ld", r->failed, r->evaluations);
     cr_expect(r->notes == 1 && strstr(r->note[0], "inside out") != NULL, "%d notes", r->notes);
+    cr_expect(strstr(r->note[0], "measured: 1") && strstr(r->note[0], ": the shape has turned inside out"),
+              "%s", r->note[0]);
+    ves_search_result_destroy(r);
+}
+
+/* Four reasons in strips of the box, the last a status that no list knows. */
+static ves_status strips(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker, (void)v;
+    double x = ask->x[0];
+    return x > 0.4 ? VES_FOLDED : x > -0.3 ? VES_INVERTED : x > -0.7 ? VES_NARROW : (ves_status)99;
+}
+
+Test(search_run, what_is_wrong_with_the_random_points_is_counted)
+{
+    given g = {.evaluate = strips, .n = 2, .lower = {-1, -1}, .upper = {1, 1}, .start = {0, 0}};
+    ves_search_options o = ves_search_options_default();
+    ves_search_result *r;
+    long points, of[4];
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    int read =
+        sscanf(r->note[0],
+               "neither the start (the shape has turned inside out) nor any of %ld random points can be "
+               "measured: %ld: the shape has turned inside out; %ld: the surface folds back on itself; "
+               "%ld: the shape comes closer to its axis than allowed; %ld: other reasons",
+               &points, &of[0], &of[1], &of[2], &of[3]);
+    cr_assert(read == 5, "%d numbers in \"%s\"", read, r->note[0]);
+    cr_expect(points == 2000 && of[0] + of[1] + of[2] + of[3] == points, "%s", r->note[0]);
+    cr_expect(of[0] > of[1] && of[1] > of[2] && of[2] > of[3] && of[3] > 100, "%s", r->note[0]);
     ves_search_result_destroy(r);
 }
 

@@ -1,11 +1,12 @@
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "search/session.h"
 
 /* The first measured point: the start or, when that fails, the first of some random draws that does not. */
 
-enum { MOST_DRAWS = 2000 };
+enum { MOST_DRAWS = 2000, REASONS = 3 };
 
 static ves_status judge(ves_asker *asker, ves_point *point, bool accepted)
 {
@@ -26,6 +27,31 @@ static void draw(const ves_search_problem *problem, uint64_t seed, uint64_t step
                         : ves_random_uniform(&random);
 }
 
+/* A callback may answer with any status: those that no list knows are counted together. */
+static int kind_of(ves_status status)
+{
+    return status >= 0 && (int)status < VES_STATUS_KINDS ? (int)status : VES_STATUS_KINDS - 1;
+}
+
+/* What was wrong with the points that failed: the commonest reasons first. */
+static void reasons_write(long *failed, char *text, size_t size)
+{
+    size_t length = 0;
+    long others = 0;
+    text[0] = 0;
+    for (int turn = 0; turn < REASONS; turn++) {
+        int most = 0;
+        for (int k = 0; k < VES_STATUS_KINDS; k++)
+            if (failed[k] > failed[most]) most = k;
+        if (!failed[most]) return;
+        length += (size_t)snprintf(text + length, size - length, "%s %ld: %s", turn ? ";" : "", failed[most],
+                                   ves_status_text((ves_status)most));
+        failed[most] = 0;
+    }
+    for (int k = 0; k < VES_STATUS_KINDS; k++) others += failed[k];
+    if (others) snprintf(text + length, size - length, "; %ld: other reasons", others);
+}
+
 static ves_status look(ves_session *session, ves_asker *asker, ves_point *start)
 {
     ves_status first = start->verdict.status;
@@ -33,19 +59,22 @@ static ves_status look(ves_session *session, ves_asker *asker, ves_point *start)
     if (!home) return VES_MEMORY;
     memcpy(home, start->u, (size_t)session->n * sizeof *home);
     long half = (session->budget - session->reserved) / 2, most = half < MOST_DRAWS ? half : MOST_DRAWS;
-    long k = 0;
+    long k = 0, failed[VES_STATUS_KINDS] = {0};
+    char reasons[512];
     while (start->verdict.status != VES_OK && k < most) {
         draw(session->problem, session->seed, (uint64_t)k++, home, start->u);
         ves_point_place(session->problem, start->u, start->x);
         VES_TRY(judge(asker, start, true));
+        failed[kind_of(start->verdict.status)]++;
     }
     const char *reason = ves_status_text(first);
+    reasons_write(failed, reasons, sizeof reasons);
     if (!most)
         ves_session_note(session, "the start cannot be measured (%s), and the budget allows no other point",
                          reason);
     else if (start->verdict.status != VES_OK)
-        ves_session_note(session, "neither the start (%s) nor any of %ld random point%s can be measured",
-                         reason, k, k == 1 ? "" : "s");
+        ves_session_note(session, "neither the start (%s) nor any of %ld random point%s can be measured:%s",
+                         reason, k, k == 1 ? "" : "s", reasons);
     else
         ves_session_note(session,
                          "the start cannot be measured (%s); began at random point %ld, the first that can",
