@@ -183,3 +183,28 @@ Test(cli_screen, the_picture_of_a_run_shows_the_mean_curvature)
     cr_assert(system("cmp one.png best/best.png && cmp one.png two.png && ! cmp -s one.png three.png") == 0);
     root_remove();
 }
+
+/* A wall whose equation has no number at the end of its interval cannot be measured anywhere. */
+Test(cli_screen, a_grid_that_nothing_could_choose_is_not_said_to_be_the_file_s)
+{
+    const char *flat =
+        "vesica: 1\nvariables: {r: [0.5, 1, 2]}\n"
+        "curves: {low: {circle: {radius: r}}, high: {like: low, apply: [{translate: [0, 0, h]}]}}\n"
+        "patches: {wall: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: low}, {u: 1, "
+        "position: high}]}}\nshape: {closed: true, caps: [wall.u0, wall.u1]}\n"
+        "solve: {unknown: h, in: [0, 4], equation: volume == 3}\nminimize: area\n";
+    char given[1000];
+    root_make();
+    write_file("flat.yaml", flat);
+    outcome o = vesica(NULL, "check flat.yaml");
+    has_lines(o.out,
+              (const char *const[]){"\n quadrature 16 x 16 nodes a patch, not chosen: nothing could be "
+                                    "measured\n",
+                                    NULL});
+    done(&o);
+    snprintf(given, sizeof given, "%squadrature: {u: 24, v: 32}\n", flat);
+    write_file("given.yaml", given);
+    o = vesica(NULL, "check given.yaml");
+    has_lines(o.out, (const char *const[]){"\n quadrature 24 x 32 nodes a patch, as the file says\n", NULL});
+    done(&o);
+}

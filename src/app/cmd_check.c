@@ -111,8 +111,11 @@ static void costs(const checked *c)
     const ves_run *run = c->run;
     char value[32], gradient[32];
     printf("  quadrature   %d x %d nodes a patch", run->quadrature[0], run->quadrature[1]);
-    if (isnan(run->change))
+    const int *said = run->problem->quadrature;
+    if (said[0] > 0 && said[1] > 0)
         printf(", as the file says");
+    else if (isnan(run->change))
+        printf(", not chosen: nothing could be measured");
     else
         printf(", chosen: half as many again change a measure by %.1e at most", run->change);
     if (!isnan(run->finer_change)) printf("; twice as many by %.1e", run->finer_change);
