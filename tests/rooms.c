@@ -3,16 +3,18 @@
  * has laid out; a last test gives each rule a small source that breaks it. */
 #include <criterion/criterion.h>
 #include <stdarg.h>
+#include <unistd.h>
 
 #include "source.h"
 
-enum { FILE_LINES = 600, FUNCTION_LINES = 100, PARAMETERS = 7, FUNCTIONS = 20000 };
+enum { FILE_LINES = 600, FUNCTION_LINES = 100, PARAMETERS = 7, FUNCTIONS = 20000, ROOMS = 32 };
 
 typedef struct house {
     int breaches, files;
     char last[512]; /* the last breach, for the test of the rules */
     bool quiet;
     int functions, length[FUNCTIONS];
+    char looked[ROOMS][200]; /* into which rooms the sources of each room look */
 } house;
 
 static void complain(house *h, const source *s, int line, const char *format, ...)
@@ -29,27 +31,42 @@ static void complain(house *h, const source *s, int line, const char *format, ..
 
 /* ---- which room may look into which: includes go one way ---- */
 
-static const struct arrow {
+typedef struct row {
+    char name[32], sees[160];
+} row;
+
+/* A row of the table in docs/architecture.md: | `src/ROOM` | what it knows | ROOM, ROOM |. */
+static bool row_read(const char *line, row *r)
+{
+    *r = (row){0};
+    if (sscanf(line, "| `src/%31[a-z]` |%*[^|]|%159[^|\n]|", r->name, r->sees) < 2) return false;
+    for (char *at = r->sees; *at; at++)
+        if (*at == ',') *at = ' ';
+    return true;
+}
+
+/* The whole table; an empty name ends it. */
+static const row *rows(void)
+{
+    static row table[ROOMS];
+    if (table[0].name[0]) return table;
+    char *text = read_text(VESICA_SOURCE "/docs/architecture.md");
+    cr_assert(text != NULL, "no docs/architecture.md");
+    int count = 0;
+    for (const char *line = text; *line && count < ROOMS - 1;
+         line += strcspn(line, "\n"), line += *line == '\n')
+        count += row_read(line, &table[count]);
+    memset(&table[count], 0, sizeof *table);
+    free(text);
+    return table;
+}
+
+typedef struct arrow {
     const char *room, *sees;
-} ARROWS[] = {
-    {"base", ""},
-    {"formula", ""},
-    {"search", ""},
-    {"curve", "formula"},
-    {"surface", "curve formula"},
-    {"bridge", "surface"},
-    {"shell", "surface curve formula"},
-    {"measure", "shell bridge surface formula"},
-    {"problem", "measure search curve formula"},
-    {"plan", "problem measure surface curve formula bridge"},
-    {"output", "surface bridge"},
-    {"study", "plan search output problem measure surface formula"},
-    {"app", "study plan search output problem measure surface curve formula bridge"},
-};
-enum { ROOMS = sizeof ARROWS / sizeof *ARROWS };
+} arrow;
 
 /* Other people's libraries: one door each. The app only asks them for their versions. */
-static const struct arrow DOORS[] = {
+static const arrow DOORS[] = {
     {"yaml.h", "problem app"},
     {"nlopt.h", "search app"},
     {"cairo", "output app"},
@@ -82,11 +99,19 @@ static void room_of(const char *path, char room[64])
     if (starts_with(path, "src/")) snprintf(room, 64, "%.*s", (int)strcspn(path + 4, "/"), path + 4);
 }
 
-static const char *seen_from(const char *room)
+/* Where it stands in the table, or -1. */
+static int row_of(const char *name)
 {
-    for (int k = 0; k < ROOMS; k++)
-        if (!strcmp(ARROWS[k].room, room)) return ARROWS[k].sees;
-    return NULL;
+    const row *table = rows();
+    for (int k = 0; table[k].name[0]; k++)
+        if (!strcmp(table[k].name, name)) return k;
+    return -1;
+}
+
+static void look_note(char looked[200], const char *target)
+{
+    size_t length = strlen(looked);
+    if (!has_word(looked, target)) snprintf(looked + length, 200 - length, " %s", target);
 }
 
 static void check_include(house *h, const source *s, int line, const char *name, bool angle)
@@ -104,14 +129,16 @@ static void check_include(house *h, const source *s, int line, const char *name,
     }
     snprintf(target, sizeof target, "%.*s", (int)length, name);
     if (!strcmp(target, "vesica") || !strcmp(target, "base") || !strcmp(target, room)) return;
-    if (!has_word(seen_from(room), target)) complain(h, s, line, "%s may not look into %s", room, target);
+    int from = row_of(room);
+    look_note(h->looked[from], target);
+    if (!has_word(rows()[from].sees, target)) complain(h, s, line, "%s may not look into %s", room, target);
 }
 
 static void check_includes(house *h, const source *s)
 {
     char name[128], open, room[64];
     room_of(s->path, room);
-    if (!seen_from(room)) {
+    if (row_of(room) < 0) {
         complain(h, s, 1, "there is no room \"%s\"", room);
         return;
     }
@@ -413,6 +440,25 @@ Test(rooms, every_file_under_src_keeps_the_rules)
     walk("src", visit_source, &h);
     cr_assert(h.files >= 50, "only %d files found under %s/src", h.files, VESICA_SOURCE);
     cr_assert(h.breaches == 0, "%d breaches in %d files (above)", h.breaches, h.files);
+}
+
+/* What the table allows is what the source does: no row without a room, no arrow that nothing
+ * follows, and all arrows go up. */
+Test(rooms, the_table_of_the_architecture_says_no_more_than_the_source_does)
+{
+    static house h = {.quiet = true};
+    const row *table = rows();
+    int k = 0, length;
+    walk("src", visit_source, &h);
+    for (; table[k].name[0]; k++) {
+        char path[512], word[32];
+        snprintf(path, sizeof path, VESICA_SOURCE "/src/%.31s", table[k].name);
+        cr_expect(!access(path, F_OK), "there is no src/%s", table[k].name);
+        for (const char *at = table[k].sees; sscanf(at, " %31s%n", word, &length) == 1; at += length)
+            cr_expect(has_word(h.looked[k], word) && row_of(word) < k,
+                      "%s looks nowhere into %s, or it is below it", table[k].name, word);
+    }
+    cr_expect(k > 8, "only %d rooms in the table", k);
 }
 
 Test(rooms, public_headers_stand_alone_and_say_what_they_are_for)
