@@ -29,7 +29,9 @@ typedef struct ves_plan_options {
 
 /* options NULL: as the problem says. Choosing a grid takes about as long as a hundred evaluations: give other
  * plans of the same problem the grid of the first (ves_plan_grid). On failure *plan is NULL and the reason is
- * in diag, which may be NULL. A start design that cannot be measured is no failure. */
+ * in diag, which may be NULL. A start design that cannot be measured is no failure: normals then face outward
+ * at the first of up to 31 others that can be measured and encloses a volume, the same for every plan.
+ * VES_SINGULAR where a measure needs an inside (volume) and no design that was tried encloses anything. */
 ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *options, ves_plan **plan,
                            ves_diag *diag);
 void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
@@ -37,9 +39,9 @@ void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
 /* The grid of level 0: nodes along u and v of each patch; level 1 has twice as many of both. Where it was
  * chosen: from 16 nodes along u, and along v enough to see the modes that are solved, each direction was
  * refined by half until two refinements in a row changed no measure (extremes left out) by more
- * than 1e-9 of its size, up to 64 and 264 nodes, at the start design or, if that cannot be measured, at the
- * first of 31 others that can. Returns the largest relative change that was left; NAN when nothing was chosen
- * or nothing could be measured. */
+ * than 1e-9 of its size, up to 64 and 264 nodes, at the start design or, if that cannot be measured or is a
+ * closed shape that encloses nothing, at the first of up to 31 others that can and does. Returns the largest
+ * relative change that was left; NAN when nothing was chosen or nothing could be measured. */
 double ves_plan_grid(const ves_plan *plan, int quadrature[2]);
 
 /* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation. With

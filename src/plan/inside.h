@@ -83,7 +83,12 @@ struct ves_plan {
     bool branched; /* no oriented mesh: more than two patches end on some curve, or a sheet has one side */
     plan_sheet *sheet; /* [patches] */
     double *side;      /* [patches] +1: Xu x Xv points outward */
-    int *part;         /* [patches] first patch of the connected part that it belongs to */
+    int *
+        sense; /* [patches] sign of what its part encloses; -1: it is a hollow; 0: its outside is not known */
+    double *enclosed;    /* [patches] by its part, at the first patch of each: scratch of validity */
+    double *reference;   /* [variables] the design at which the outside was found */
+    ves_status measured; /* what came of measuring it */
+    int *part;           /* [patches] first patch of the connected part that it belongs to */
     plan_level level[LEVELS];
     bool *runs[PROGRAMS];   /* [measures] */
     double *value;          /* [measures] */
@@ -117,8 +122,9 @@ struct ves_plan {
  * be measured. */
 ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], double *change, ves_diag *diag);
 
-/* level.c */
+/* level.c. face: its sites take the sides of their patches. */
 ves_status ves_plan_level_build(ves_plan *plan, int index);
+void ves_plan_level_face(ves_plan *plan, int index);
 
 /* sites.c: sampling and its transpose. finish: of a site whose kind, grid and needs are known. look: what
  * measures call. */
@@ -174,7 +180,12 @@ bool ves_end_is_capped(const ves_plan *plan, int patch, int end);
 /* lid.c: f->lid[end], where a fan would not do */
 ves_status ves_lid_make(ves_figure_patch *f, int end, ves_arena *arena);
 
-/* outward.c: which way the start design faces */
-ves_status ves_plan_face_outward(ves_plan *plan);
+/* outward.c: turns each part outward as the design that is bound shows it. nested: on this figure the
+ * hollows, and they alone, lie in other parts; corner: 6 for each cell of a patch. */
+ves_status ves_plan_face(ves_plan *plan);
+bool ves_plan_nested(const ves_plan *plan, const ves_figure *figure, int *corner);
+
+/* reference.c: finds the design that shows where outside is, and turns the plan by it */
+ves_status ves_plan_refer(ves_plan *plan, ves_diag *diag);
 
 #endif

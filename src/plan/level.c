@@ -51,7 +51,6 @@ static ves_status cap_add(ves_plan *plan, plan_level *l, int k, int *index)
     *index = site_find(l, VES_SITE_CAP, cap->patch, -1, at);
     if (*index >= 0) return VES_OK;
     plan_site s = {.patch = cap->patch, .curve = -1, .samples.site = VES_SITE_CAP};
-    s.samples.side = (cap->end ? -1 : 1) * plan->side[cap->patch];
     VES_TRY(ves_grid_ring(cap->end, l->quadrature[1], true, &plan->arena, &s.grid));
     *index = l->sites;
     l->site[l->sites++] = s;
@@ -181,6 +180,17 @@ static void validity_needs(const ves_problem *p, plan_level *l)
     }
 }
 
+void ves_plan_level_face(ves_plan *plan, int index)
+{
+    plan_level *l = &plan->level[index];
+    for (int k = 0; k < l->sites; k++) {
+        plan_site *s = &l->site[k];
+        if (s->patch < 0) continue;
+        s->side = plan->side[s->patch];
+        if (s->samples.site == VES_SITE_CAP) s->samples.side = s->grid.u[0] > 0 ? -s->side : s->side;
+    }
+}
+
 ves_status ves_plan_level_build(ves_plan *plan, int index)
 {
     const ves_problem *p = plan->problem;
@@ -207,11 +217,8 @@ ves_status ves_plan_level_build(ves_plan *plan, int index)
         l->site[cap].needs[PROGRAM_ALL] |= VES_X | VES_XV;
         l->site[cap].wants |= VES_X | VES_XV;
     }
-    for (int k = 0; k < l->sites; k++) {
-        double side = l->site[k].samples.side;
-        VES_TRY(ves_site_finish(plan, &l->site[k], l->site[k].samples.site));
-        l->site[k].samples.side = side;
-    }
+    for (int k = 0; k < l->sites; k++) VES_TRY(ves_site_finish(plan, &l->site[k], l->site[k].samples.site));
+    ves_plan_level_face(plan, index);
     for (int m = 0; m < p->measures; m++) VES_TRY(instance_finish(plan, l, m));
     return VES_OK;
 }

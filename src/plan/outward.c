@@ -1,4 +1,4 @@
-/* Outward: which way the start design faces. */
+/* Outward: which way a design faces. */
 #include "plan/inside.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 enum { ALONG = 16, AROUND = 32 };
 
 /* Below this share of its area times its size, what a part encloses is rounding: it has no outside (a flat
- * sheet, a saddle), and keeps Xu x Xv. */
+ * sheet, a saddle), and keeps Xu x Xv of its first patch. */
 static const double NOTHING = 1e-9;
 
 /* Sums over the triangles of one part. Six times the volume between it and a point c is flux - c . vector. */
@@ -105,7 +105,14 @@ static bool is_hollow(const ves_plan *plan, const ves_figure *figure, int part, 
     return within % 2;
 }
 
-ves_status ves_plan_face_outward(ves_plan *plan)
+/* What a closed part must hold, seen from its own outside: less than nothing, when it is a hollow. */
+static int sense_of(const ves_plan *plan, const ves_figure *figure, int part, double volume, int *corner)
+{
+    if (!(fabs(volume) > 0)) return 0;
+    return plan->problem->shape.closed && is_hollow(plan, figure, part, corner) ? -1 : 1;
+}
+
+ves_status ves_plan_face(ves_plan *plan)
 {
     ves_figure *figure;
     int patches = plan->problem->patches;
@@ -120,12 +127,25 @@ ves_status ves_plan_face_outward(ves_plan *plan)
     for (int k = 0; k < patches && good; k++)
         triangles_visit(&figure->patch[k], origin, corner, facing_add, &part[plan->part[k]]);
     for (int k = 0; k < patches && good; k++) {
-        if (plan->part[k] == k) {
-            bool hollow = plan->problem->shape.closed && is_hollow(plan, figure, k, corner);
-            turn[k] = (facing_volume(&part[k]) < 0) != hollow ? -1 : 1;
+        int first = plan->part[k];
+        if (first == k) {
+            double volume = facing_volume(&part[k]);
+            plan->sense[k] = sense_of(plan, figure, k, volume, corner);
+            turn[k] = plan->sense[k] ? copysign(1, volume * plan->sense[k]) : plan->side[k];
         }
-        plan->side[k] *= turn[plan->part[k]];
+        plan->sense[k] = plan->sense[first];
+        plan->side[k] *= turn[first];
     }
     ves_figure_destroy(figure);
+    for (int k = 0; k < LEVELS && good; k++) ves_plan_level_face(plan, k);
     return good ? VES_OK : VES_MEMORY;
+}
+
+bool ves_plan_nested(const ves_plan *plan, const ves_figure *figure, int *corner)
+{
+    for (int k = 0; k < figure->patches && figure->closed; k++)
+        if (plan->part[k] == k && plan->sense[k] &&
+            is_hollow(plan, figure, k, corner) != (plan->sense[k] < 0))
+            return false;
+    return true;
 }

@@ -96,13 +96,16 @@ static ves_status memory_take(ves_plan *plan)
     plan->sheet = ves_arena_take(a, (size_t)p->patches, sizeof *plan->sheet);
     plan->side = ves_arena_take(a, (size_t)p->patches, sizeof *plan->side);
     plan->part = ves_arena_take(a, (size_t)p->patches, sizeof *plan->part);
+    plan->sense = ves_arena_take(a, (size_t)p->patches, sizeof *plan->sense);
+    plan->enclosed = ves_arena_take(a, (size_t)p->patches, sizeof *plan->enclosed);
+    plan->reference = ves_arena_take(a, (size_t)p->variables, sizeof *plan->reference);
     plan->told = ves_arena_doubles(a, (size_t)p->measures);
     plan->sides = ves_arena_take(a, (size_t)p->constraints, sizeof *plan->sides);
     return plan->block && plan->block_adjoint && plan->value && plan->fine && plan->fine_violation &&
                    plan->measure_adjoint && plan->size && plan->cheap && plan->formula_room && plan->rows &&
                    plan->row_similarity && plan->unit_row && plan->field && plan->field_adjoint &&
-                   plan->form && plan->patch && plan->sheet && plan->side && plan->part && plan->told &&
-                   plan->sides
+                   plan->form && plan->patch && plan->sheet && plan->side && plan->part && plan->sense &&
+                   plan->enclosed && plan->reference && plan->told && plan->sides
                ? VES_OK
                : VES_MEMORY;
 }
@@ -195,15 +198,15 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     for (int k = 0; k < p->patches; k++) VES_TRY(patch_make(plan, k, diag));
     ves_plan_bind_patches(plan);
     VES_TRY(ves_plan_orient(plan, diag));
-    VES_TRY(ves_plan_face_outward(plan));
     VES_TRY(runs_make(plan));
     VES_TRY(ves_plan_pose(plan));
     for (int k = 0; k < LEVELS; k++) {
         for (int d = 0; d < 2; d++) plan->level[k].quadrature[d] = options->quadrature[d] << k;
         VES_TRY(ves_plan_level_build(plan, k));
     }
+    VES_TRY(ves_plan_refer(plan, diag));
     for (int m = 0; m < p->measures; m++) plan->value[m] = 0;
-    ves_status status = ves_plan_forward(plan, plan->block, 0, PROGRAM_JUDGE, false);
+    ves_status status = ves_plan_forward(plan, plan->start, 0, PROGRAM_JUDGE, false);
     if (status < 0) return status;
     sizes_fix(plan);
     return VES_OK;

@@ -1,10 +1,10 @@
 /* The quadrature that `auto` chooses. */
-#include "base/random.h"
 #include "plan/inside.h"
 
 #include <math.h>
+#include <string.h>
 
-enum { U_LEAST = 16, U_MOST = 64, V_LEAST = 16, V_MOST = 264, TRIES = 32 };
+enum { U_LEAST = 16, U_MOST = 64, V_LEAST = 16, V_MOST = 264 };
 
 static const double ENOUGH = 1e-9;
 
@@ -46,22 +46,6 @@ static int resolving(const ves_plan *plan)
     return n < V_LEAST ? V_LEAST : n > V_MOST ? V_MOST : n;
 }
 
-/* A design that can be measured: the start, the middle of the box, or one of some random ones. */
-static ves_status design_find(const ves_problem *problem, ves_plan *plan, double *x)
-{
-    ves_status status = VES_DEGENERATE;
-    for (int t = 0; t < TRIES && status > VES_OK; t++) {
-        ves_random random = {.seed = 1, .step = (uint64_t)t};
-        for (int k = 0; k < problem->variables; k++) {
-            const ves_variable *v = &problem->variable[k];
-            x[k] =
-                t == 0 ? v->start : v->min + (v->max - v->min) * (t == 1 ? 0.5 : ves_random_uniform(&random));
-        }
-        status = ves_plan_measure_all(plan, x, 0);
-    }
-    return status;
-}
-
 /* Refines one direction until two refinements in a row change nothing: one alone may be fooled by symmetry.
  * left: the last change on the grid chosen. */
 static ves_status refine(const ves_problem *problem, const double *x, int d, int grid[2], double *left,
@@ -101,7 +85,9 @@ ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], do
         ves_plan_destroy(plan);
         status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, diag);
     }
-    if (status == VES_OK) status = design_find(problem, plan, x);
+    if (status == VES_OK) status = plan->measured;
+    if (status == VES_OK && problem->variables)
+        memcpy(x, plan->reference, sizeof *x * (size_t)problem->variables);
     for (int d = 0; d < 2 && status == VES_OK; d++)
         status = refine(problem, x, d, grid, &left[d], value, diag);
     ves_plan_destroy(plan);

@@ -85,7 +85,6 @@ ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind)
                        .v = s->grid.v,
                        .weight = s->grid.weight};
     if (s->patch >= 0) {
-        s->side = plan->side[s->patch];
         s->varies = ves_patch_varies(plan->patch[s->patch]) || plan->problem->scale;
         VES_TRY(
             ves_chart_create(plan->patch[s->patch], &s->grid, fields_for(s->wants), &plan->arena, &s->chart));

@@ -108,26 +108,37 @@ static bool turns_back(const ves_plan *plan, const ves_samples *s)
     return up && down;
 }
 
+/* Every part must enclose what it enclosed where it was turned outward: one that is inside out would be taken
+ * off the others. */
+static bool inverted(const ves_plan *plan, const plan_level *l)
+{
+    int patches = plan->problem->patches;
+    for (int k = 0; k < patches; k++) plan->enclosed[k] = 0;
+    for (int k = 0; k < patches; k++) plan->enclosed[plan->part[k]] += flux(&l->site[k].samples);
+    for (int k = patches; k < l->sites; k++) {
+        const ves_samples *s = &l->site[k].samples;
+        if (s->site != VES_SITE_CAP) continue;
+        ves_cap cap = ves_cap_init(s);
+        for (int c = 0; c < 3; c++)
+            plan->enclosed[plan->part[s->patch]] += s->side / 6 * cap.mean[c] * cap.twice_area[c];
+    }
+    for (int k = 0; k < patches; k++)
+        if (plan->sense[k] * plan->enclosed[k] < 0) return true; /* 0 but at the first patch of a part */
+    return false;
+}
+
 ves_status ves_plan_validity(const ves_plan *plan, int index)
 {
     const ves_problem *p = plan->problem;
     const ves_validity_def *v = &p->validity;
     const plan_level *l = &plan->level[index];
-    double volume = 0;
     for (int k = 0; k < p->patches; k++) {
         const ves_samples *s = &l->site[k].samples;
         if (v->jacobian && folded(s)) return VES_FOLDED;
-        if (p->shape.closed) volume += flux(s);
         if (v->least_radius >= 0 && among(k, v->radius_patches, v->radius_patch) && narrow(plan, s))
             return VES_NARROW;
         if (v->monotone >= 0 && among(k, v->monotone_patches, v->monotone_patch) && turns_back(plan, s))
             return VES_NOT_MONOTONE;
     }
-    for (int k = p->patches; k < l->sites && p->shape.closed; k++) {
-        const ves_samples *s = &l->site[k].samples;
-        if (s->site != VES_SITE_CAP) continue;
-        ves_cap cap = ves_cap_init(s);
-        for (int c = 0; c < 3; c++) volume += s->side / 6 * cap.mean[c] * cap.twice_area[c];
-    }
-    return p->shape.closed && volume < 0 ? VES_INVERTED : VES_OK;
+    return p->shape.closed && inverted(plan, l) ? VES_INVERTED : VES_OK;
 }
