@@ -6,6 +6,7 @@
 #include "files.h"
 #include "fonts.h"
 #include "output/output.h"
+#include "output/scene.h"
 #include "shapes.h"
 
 static char first_message[1024];
@@ -117,4 +118,44 @@ Test(picture, what_no_picture_can_be_is_refused)
     cr_assert(eq(int, picture(&figure, &good, path_of("nowhere/a.png")), VES_IO));
     check_nothing_left();
     shape_end(&figure);
+}
+
+/* Which axis is up on paper. */
+static int up_of(const ves_figure *figure)
+{
+    ves_scene scene;
+    ves_arena arena = {0};
+    const ves_view view = ves_view_default();
+    const ves_frame frame = {0, 0, 100, 100, 0};
+    int up = 0;
+    cr_assert(ves_scene_build(&scene, figure, &view, &frame, &arena) == VES_OK);
+    for (int c = 1; c < 3; c++)
+        if (fabs(scene.camera.up[c]) > fabs(scene.camera.up[up])) up = c;
+    ves_arena_destroy(&arena);
+    return up;
+}
+
+Test(picture, a_tube_stands_on_its_end_and_a_sheet_has_z_upwards)
+{
+    ves_figure figure;
+    shape_pipe(&figure, 0.3, 2, false, 8, 12);
+    ves_figure_patch *p = &figure.patch[0];
+    double *z = p->X[2];
+    cr_assert(eq(int, up_of(&figure), 2));
+    p->X[2] = p->X[0], p->X[0] = z;
+    cr_assert(eq(int, up_of(&figure), 0), "a tube along x");
+    p->periodic = false; /* its two ends are two of four sides */
+    cr_assert(eq(int, up_of(&figure), 2), "a sheet");
+    shape_end(&figure);
+}
+
+Test(picture, a_constant_has_no_range_of_colours)
+{
+    double zero[4] = {0, 1e-9, -1e-9, 0}, two[4] = {2, 2, 2 + 1e-9, 2}, rising[4] = {0, 1, 2, 3};
+    ves_colour_scale s = ves_colour_scale_of(zero, 4, 1e-6, 0.48);
+    cr_assert(s.constant && s.diverging && s.lo == -s.hi, "%g %g", s.lo, s.hi);
+    s = ves_colour_scale_of(two, 4, 1e-6, 0.48);
+    cr_assert(s.constant && fabs((s.lo + s.hi) / 2 - 2) < 2e-9, "%g %g", s.lo, s.hi);
+    s = ves_colour_scale_of(rising, 4, 1e-6, 0.48);
+    cr_assert(s.constant == false && s.lo == 0 && s.hi == 3, "%g %g", s.lo, s.hi);
 }

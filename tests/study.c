@@ -535,21 +535,35 @@ Test(study, a_run_folder_opens_at_its_best)
     root_remove();
 }
 
-Test(study, a_start_needs_all_variables)
+Test(study, a_start_needs_a_variable_in_common)
 {
     root_make();
     ves_opened opened;
     trial t = run_with(
         BOTTLE, &(ves_run_options){.evaluations = 100, .jobs = 1, .files = true, .out = place("run")}, NULL);
     FILE *out = fopen(place("other.yaml"), "w");
-    fputs("vesica: 1\nvariables: {r: [1, 2, 3], s: [1, 2, 3], t: [1, 2, 3]}\n"
+    fputs("vesica: 1\nvariables: {r: [0.1, 2, 3], s: [1, 2, 3], t: [1, 2, 3]}\n"
           "curves: {p: {circle: {radius: r}}, q: {circle: {radius: s, centre: [0, 0, t]}}}\n"
           "patches: {w: {operator: {power: 1}, conditions: [{u: 0, position: p}, {u: 1, position: q}]}}\n"
           "minimize: area\n",
           out);
     fclose(out);
-    cr_assert(open_run(place("other.yaml"), place("run"), &opened, t.diag) == VES_NAME);
-    cr_assert(said(t.diag, "no variable \"s\", \"t\""));
+    cr_assert(open_run(place("other.yaml"), place("run"), &opened, t.diag) == VES_OK);
+    cr_assert(said(t.diag, "note: the run \""));
+    cr_assert(said(t.diag, "no variable \"s\", \"t\": they stand at the start that the file gives"));
+    const ves_variable *v = opened.problem->variable;
+    cr_assert(v[0].start == t.run->best.x[0] && v[1].start == 2 && v[2].start == 2, "%g %g %g", v[0].start,
+              v[1].start, v[2].start);
+    ves_study_close(&opened);
+    out = fopen(place("strange.yaml"), "w");
+    fputs("vesica: 1\nvariables: {s: [1, 2, 3], t: [1, 2, 3]}\n"
+          "curves: {p: {circle: {radius: s}}, q: {circle: {radius: s, centre: [0, 0, t]}}}\n"
+          "patches: {w: {operator: {power: 1}, conditions: [{u: 0, position: p}, {u: 1, position: q}]}}\n"
+          "minimize: area\n",
+          out);
+    fclose(out);
+    cr_assert(open_run(place("strange.yaml"), place("run"), &opened, t.diag) == VES_NAME);
+    cr_assert(said(t.diag, "has none of the variables of the problem: \"s\", \"t\""));
     cr_assert(open_run(place("other.yaml"), root, &opened, t.diag) == VES_IO);
     cr_assert(said(t.diag, "is not the folder of a finished run"));
     cr_assert(open_run(root, NULL, &opened, t.diag) == VES_IO);

@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-enum { VES_DIAG_ERRORS = 20 };
+enum { VES_DIAG_ERRORS = 100 };
 
 /* A place in a source text: 1-based line and column (bytes), length of the caret; source counts the texts
  * that were given (0 the problem file, then one for each --set). line 0: no place. */

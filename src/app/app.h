@@ -9,10 +9,10 @@
 
 /* Exit codes: a contract with scripts. */
 enum {
-    APP_DONE = 0,         /* done, feasible, all that was expected holds */
-    APP_UNMET = 1,        /* done, but infeasible, or an expectation failed */
-    APP_WRONG = 2,        /* the command line or the problem file is wrong */
-    APP_MISSING = 3,      /* something is missing on this machine, or in this version */
+    APP_DONE = 0,  /* done, feasible, all that was expected holds */
+    APP_UNMET = 1, /* done, but infeasible, or an expectation failed */
+    APP_WRONG = 2, /* the command line or the problem file is wrong, or asks for what this version has not */
+    APP_MISSING = 3,      /* something is missing on this machine: memory, room on the disk, a right */
     APP_FAULT = 4,        /* a fault of vesica itself */
     APP_INTERRUPTED = 130 /* stopped by Ctrl-C; everything so far is kept */
 };
@@ -22,13 +22,14 @@ enum { APP_OPERANDS = 8, APP_SETS = 1000, APP_PLUGINS = 32 };
 typedef struct app_options {
     int sets, plugins;
     ves_override set[APP_SETS];
-    const char *plugin[APP_PLUGINS];
+    const char *plugin[APP_PLUGINS + 1]; /* ends with NULL */
     bool seeded, json, test, no_files, reference, viewed, help;
     uint64_t seed;
     long evaluations;
     int jobs, spine, grid[2];
+    double metres;  /* of the unit of export; 0: none is asked for */
     double view[2]; /* radians: azimuth, height */
-    const char *start, *out, *patch, *points, *to, *png, *colour;
+    const char *start, *out, *patch, *points, *to, *unit, *png, *colour;
     ves_progress_style progress;
     ves_trace trace;
 } app_options;

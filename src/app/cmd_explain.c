@@ -39,13 +39,21 @@ static void topics(app *a, ves_topic *topic)
     for (const ves_format *const *f = ves_formats(); *f; f++)
         topic_add(a, topic, &count, (*f)->name,
                   ves_arena_format(&a->arena,
-                                   "a format\n      %s\n      example: vesica export problem.yaml --to %s",
+                                   "a format\n      %s\n      lengths in m, or in what --unit says (mm for "
+                                   "printing); in a file without units its own\n"
+                                   "      example: vesica export problem.yaml --to %s --unit mm",
                                    (*f)->about, (*f)->name));
     for (int k = 0; k < 3; k++)
         topic_add(a, topic, &count, picture[k],
                   ves_arena_format(
                       &a->arena, "a kind of picture\n      example: vesica show problem.yaml --png shape.%s",
                       picture[k]));
+    topic_add(a, topic, &count, "trace",
+              "the candidates of a run, trace.jsonl in its folder: one JSON object a line\n"
+              "      with evaluation, stage, chain, x (SI), value, violation, T, accepted, status; x in the "
+              "order of\n"
+              "      `variables` in result.json. --trace short|all|accepted|none says which are kept\n"
+              "      example: vesica run problem.yaml --trace all");
     for (const app_command *c = app_commands; c->name; c++)
         topic_add(a, topic, &count, c->name,
                   ves_arena_format(&a->arena, "a command: vesica %s\n      %s (vesica help %s)", c->usage,

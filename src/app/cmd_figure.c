@@ -74,6 +74,27 @@ static int write_all(app *a, ves_figure *figure, const char *stem, const ves_for
     return APP_DONE;
 }
 
+/* In the unit that is asked for. A file without units has no metres that could be turned into it. */
+static int convert(app *a, ves_figure *figure)
+{
+    const char *unit = a->options.unit;
+    if (unit && !figure->unit)
+        return app_fail(a, VES_USAGE,
+                        "--unit %s: the problem file has no units, so its numbers are written as they are",
+                        unit);
+    if (unit && a->options.metres != 1) ves_figure_scale(figure, 1 / a->options.metres, unit);
+    return APP_DONE;
+}
+
+/* A program that prints takes the numbers of a file for millimetres: who exports should see them. */
+static void box_tell(const ves_figure *figure)
+{
+    double low[3], high[3];
+    if (!ves_figure_box(figure, low, high)) return;
+    fprintf(stderr, "box %.4g x %.4g x %.4g %s\n", high[0] - low[0], high[1] - low[1], high[2] - low[2],
+            figure->unit ? figure->unit : "(the problem file has no units)");
+}
+
 int app_export(app *a)
 {
     app_shape shape;
@@ -85,7 +106,11 @@ int app_export(app *a)
     if (code != APP_DONE || !app_shape_open(a, &shape, &code)) return code;
     char *stem = stem_of(a, shape.opened.name, &code);
     ves_figure *figure = stem ? app_shape_figure(a, &shape, &code) : NULL;
-    if (figure) code = write_all(a, figure, stem, format, count);
+    if (figure) code = convert(a, figure);
+    if (figure && code == APP_DONE) {
+        code = write_all(a, figure, stem, format, count);
+        if (code == APP_DONE) box_tell(figure);
+    }
     ves_figure_destroy(figure);
     app_shape_close(&shape);
     return code;

@@ -19,9 +19,11 @@ static void overview(FILE *out)
     for (const app_command *c = app_commands; c->name; c++) fprintf(out, "  %-9s %s\n", c->name, c->about);
     fprintf(
         out,
-        "\nvesica help COMMAND tells its options. A RUN is a folder that a run has made.\n"
-        "Exit code: 0 done and feasible, 1 infeasible or an expectation failed, 2 wrong file or command,\n"
-        "3 something is missing on this machine, 4 a fault of vesica, 130 interrupted.\n");
+        "\nvesica help COMMAND tells its options. A RUN is a folder that a run has made; FILE may be - for "
+        "stdin.\n"
+        "Exit code: 0 done and feasible, 1 infeasible or an expectation failed, 2 wrong file or command, or\n"
+        "more than this version can do, 3 something is missing on this machine, 4 a fault of vesica,\n"
+        "130 interrupted.\n");
 }
 
 void app_help_command(const app_command *command, FILE *out)

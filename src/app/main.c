@@ -17,7 +17,6 @@ int app_code(ves_status status)
         return APP_DONE;
     case VES_MEMORY:
     case VES_IO:
-    case VES_ABSENT:
         return APP_MISSING;
     case VES_INTERRUPTED:
         return APP_INTERRUPTED;
@@ -48,10 +47,19 @@ void app_say(app *a)
     }
 }
 
+/* After the last message. */
+static void say_rest(const app *a)
+{
+    int kept = 0, errors = ves_diag_errors(a->diag);
+    for (int k = 0; k < ves_diag_count(a->diag); k++) kept += ves_diag_severity(a->diag, k) == VES_ERROR;
+    if (errors > kept)
+        fprintf(stderr, "... and %d more %s\n", errors - kept, errors - kept == 1 ? "error" : "errors");
+}
+
 bool app_open(app *a, ves_opened *opened, int *code)
 {
     const app_options *o = &a->options;
-    ves_open_options options = {.read = {o->sets, o->set, a->measure}, .start = o->start};
+    ves_open_options options = {.read = {o->sets, o->set, a->measure, o->plugin}, .start = o->start};
     ves_status status = ves_study_open(a->operand[0], &options, opened, a->diag);
     app_say(a);
     *code = status == VES_IO ? APP_WRONG : app_code(status); /* a file that is not there was misspelt */
@@ -153,6 +161,7 @@ int main(int count, char **word)
     }
     int code = flushed(a, dispatch(a, count, word));
     app_say(a);
+    say_rest(a);
     app_plugins_close(a);
     ves_arena_destroy(&a->arena);
     ves_diag_destroy(a->diag);

@@ -6,6 +6,7 @@
 
 #include "app/app.h"
 #include "base/text.h"
+#include "formula/dimension.h"
 
 enum { OPTIONS = 64 };
 
@@ -118,6 +119,16 @@ static bool take_colour(app *a, const char *value)
            wrong(a, "--colour is patch, H, K, k1 or k2, not \"%s\"", value);
 }
 
+static bool take_unit(app *a, const char *value)
+{
+    ves_dim dim;
+    const ves_dim length = {.m = 6};
+    bool known = ves_dim_read(value, &dim, &a->options.metres);
+    a->options.unit = value;
+    return (known && !dim.any && ves_dim_equal(dim, length)) ||
+           wrong(a, "--unit needs a unit of length as mm, cm or m (vesica list units), got \"%s\"", value);
+}
+
 static bool take_plugin(app *a, const char *value)
 {
     app_options *o = &a->options;
@@ -179,6 +190,7 @@ static const option table[] = {
     {"points", "FILE", "CSV of u, v; - is stdin", take_points},
     {"spine", "N", "N points of the spine, the mean over v: CSV u, x, y, z", take_spine},
     {"to", "FORMAT[,FORMAT]", "see vesica list formats", take_to},
+    {"unit", "UNIT", "of the lengths in the files: mm, cm ...; m, unless said, whatever the problem file writes", take_unit},
     {"grid", "NUxNV", "cells along u and v of each patch", take_grid},
     {"png", "FILE", "where to; the ending png, svg or pdf says what (NAME.png)", take_png},
     {"colour", "patch|H|K|k1|k2", "what the colours show: patches, or the mean (H, unless said), Gauss, largest or least curvature", take_colour},

@@ -165,6 +165,18 @@ static void measure_row(app_table *t, const double start[], double best, const v
 }
 
 /* Measures, and what the equations of solve: and scale: found. */
+/* " (along y)": a height need not be where the reader thinks that up is. */
+static const char *axis_of(const ves_measure_def *m)
+{
+    static const char *const fixed[][2] = {
+        {"height", " (along y)"}, {"width", " (along x)"}, {"depth", " (along z)"}};
+    for (int k = 0; k < 3; k++)
+        if (!strcmp(m->measure->name, fixed[k][0])) return fixed[k][1];
+    for (int k = 0; k < m->args.count; k++)
+        if (!strcmp(m->args.key[k].name, "along") && !m->args.arg[k].given) return " (along y)";
+    return "";
+}
+
 static void measures(const ves_problem *p, const ves_design *best, const ves_design *start, FILE *out)
 {
     static const ves_shown plain = {.factor = 1};
@@ -175,7 +187,7 @@ static void measures(const ves_problem *p, const ves_design *best, const ves_des
     app_table_cell(&t, start ? "best" : "value");
     app_table_end(&t);
     for (int k = 0; k < p->measures; k++) {
-        app_table_cell(&t, "%s", p->measure[k].name);
+        app_table_cell(&t, "%s%s", p->measure[k].name, axis_of(&p->measure[k]));
         measure_row(&t, start ? &start->measure[k] : NULL, best->measure[k], &p->measure[k].shown);
     }
     if (p->solve) {
@@ -287,6 +299,12 @@ static void remarks(const ves_run *run, FILE *out)
     app_table_print(&t, out);
 }
 
+/* " --plugin FILE" for each: without them the folder cannot be read again. */
+static void plugins(const ves_problem *p, FILE *out)
+{
+    for (int k = 0; p->plugin_file && p->plugin_file[k]; k++) fprintf(out, " --plugin %s", p->plugin_file[k]);
+}
+
 static void conclusion(const ves_run *run, FILE *out)
 {
     if (run->ending == VES_ENDED_STOPPED) fputs("\n  interrupted: this is the best so far\n", out);
@@ -299,9 +317,12 @@ static void conclusion(const ves_run *run, FILE *out)
     if (!run->folder) return;
     fprintf(out, "\n  %s/   %sstart.vtp  result.json  %slog.txt\n", run->folder,
             run->any ? "best.vtp  best.png  " : "", run->searched ? "trace.jsonl  " : "");
-    if (run->any)
-        fprintf(out, "  next: %s export %s --to stl,obj    %s show %s\n", app_called(), run->folder,
-                app_called(), run->folder);
+    if (!run->any) return;
+    fprintf(out, "  next: %s export %s --to stl,obj", app_called(), run->folder);
+    plugins(run->problem, out);
+    fprintf(out, "    %s show %s", app_called(), run->folder);
+    plugins(run->problem, out);
+    fputc('\n', out);
 }
 
 void app_screen_run(const ves_run *run, FILE *out)

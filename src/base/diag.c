@@ -6,7 +6,7 @@
 
 #include "base/arena.h"
 
-enum { TEXT = 1200, MESSAGES = 100, EXCERPT = 120 };
+enum { TEXT = 1200, MESSAGES = 300, EXCERPT = 120 };
 
 typedef struct source {
     const char *name, *text;

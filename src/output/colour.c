@@ -62,7 +62,12 @@ ves_colour_scale ves_colour_scale_of(double *values, int count, double noise, do
     if (!kept) return (ves_colour_scale){.lo = -unit, .hi = unit, .diverging = true};
     qsort(values, (size_t)kept, sizeof *values, compare);
     double lo = values[kept / 100], hi = values[kept - 1 - kept / 100], middle = (lo + hi) / 2;
-    double largest = fmax(fabs(lo), fabs(hi));
+    double largest = fmax(fabs(lo), fabs(hi)), spread = values[kept - 1] - values[0];
+    if (spread <= noise || spread <= 1e-6 * largest) {
+        if (largest <= noise) middle = 0, largest = unit;
+        return (ves_colour_scale){
+            .lo = middle - largest, .hi = middle + largest, .diverging = !middle, .constant = true};
+    }
     if (hi - lo <= noise || hi - lo <= 1e-6 * largest) {
         double half = largest > noise ? largest / 2 : unit;
         lo = middle - half, hi = middle + half;

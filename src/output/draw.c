@@ -263,33 +263,45 @@ static void legend_point(const sheet *s, double x, double y, double width, doubl
     cairo_fill(s->cairo);
 }
 
+static void legend_tick(const sheet *s, double x, double y, double value)
+{
+    char text[LABEL];
+    snprintf(text, sizeof text, "%s%.4g", value < 0 ? "\xE2\x88\x92" : "", fabs(value));
+    colour(s, quiet, 1);
+    cairo_move_to(s->cairo, x, y);
+    cairo_line_to(s->cairo, x + 4 * s->unit, y);
+    cairo_stroke(s->cairo);
+    colour(s, ink, 1);
+    write_text(s, x + 8 * s->unit, y + 4 * s->unit, 0, text);
+}
+
+/* Of a constant: what it is. */
 static void legend_ticks(const sheet *s, double x, double top, double height)
 {
     const ves_colour_scale *scale = &s->scene->colours;
     double range = scale->hi - scale->lo, step = ves_step_below(range / 4);
     font(s, 12, false);
     cairo_set_line_width(s->cairo, s->unit);
+    if (scale->constant) {
+        legend_tick(s, x, top + height / 2, (scale->lo + scale->hi) / 2);
+        return;
+    }
     for (double k = ceil(scale->lo / step - 1e-9); k * step <= scale->hi + 1e-9 * range; k++) {
-        char text[LABEL];
-        double value = fabs(k) < 0.5 ? 0 : k * step, y = top + height * (scale->hi - value) / range;
-        snprintf(text, sizeof text, "%s%.4g", value < 0 ? "\xE2\x88\x92" : "", fabs(value));
-        colour(s, quiet, 1);
-        cairo_move_to(s->cairo, x, y);
-        cairo_line_to(s->cairo, x + 4 * s->unit, y);
-        cairo_stroke(s->cairo);
-        colour(s, ink, 1);
-        write_text(s, x + 8 * s->unit, y + 4 * s->unit, 0, text);
+        double value = fabs(k) < 0.5 ? 0 : k * step;
+        legend_tick(s, x, top + height * (scale->hi - value) / range, value);
     }
 }
 
 static void legend(const sheet *s)
 {
     const ves_colour_scale *scale = &s->scene->colours;
-    double x = s->view->width - 100 * s->unit, width = 16 * s->unit, height = 0.46 * s->view->height;
+    double x = s->view->width - 100 * s->unit, width = 16 * s->unit;
+    double height = scale->constant ? width : 0.46 * s->view->height;
     double top = 0.5 * (s->view->height - height), point = 11 * s->unit;
     cairo_pattern_t *fade = cairo_pattern_create_linear(0, top + height, 0, top);
     for (int k = 0; k <= 32; k++) {
-        ves_rgb c = ves_colour_value(scale, scale->lo + (scale->hi - scale->lo) * k / 32);
+        double share = scale->constant ? 0.5 : k / 32.0;
+        ves_rgb c = ves_colour_value(scale, scale->lo + (scale->hi - scale->lo) * share);
         cairo_pattern_add_color_stop_rgb(fade, k / 32.0, c.r, c.g, c.b);
     }
     cairo_rectangle(s->cairo, x, top, width, height);

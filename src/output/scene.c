@@ -35,11 +35,13 @@ static int nodes(const ves_figure_patch *p)
     return p->rows * p->columns;
 }
 
-/* The axis along which the ends of the patches are strung; z when they are not (size: of the shape). */
+/* The axis along which the ends of the patches are strung; z when they are not (size: of the shape), and for
+ * open sheets, whose ends are but two of four sides. */
 static int natural_up(const ves_figure *figure, double size)
 {
     double span[3] = {0}, first[3], last[3];
     for (int k = 0; k < figure->patches; k++) {
+        if (!figure->patch[k].periodic && !figure->patch[k].sides_meet) continue;
         ves_figure_middle(&figure->patch[k], 0, first);
         ves_figure_middle(&figure->patch[k], 1, last);
         for (int c = 0; c < 3; c++) span[c] += fabs(last[c] - first[c]);
@@ -63,15 +65,8 @@ static void camera_aim(ves_camera *camera, const ves_figure *figure, const ves_v
 /* Middle of the bounding box and half its diagonal. */
 static double bounds(const ves_figure *figure, double middle[3])
 {
-    double lo[3] = {HUGE_VAL, HUGE_VAL, HUGE_VAL}, hi[3] = {-HUGE_VAL, -HUGE_VAL, -HUGE_VAL}, half[3];
-    for (int k = 0; k < figure->patches; k++) {
-        for (int c = 0; c < 3; c++) {
-            for (int s = 0; s < nodes(&figure->patch[k]); s++) {
-                double x = figure->patch[k].X[c][s];
-                if (isfinite(x)) lo[c] = fmin(lo[c], x), hi[c] = fmax(hi[c], x);
-            }
-        }
-    }
+    double lo[3], hi[3], half[3];
+    ves_figure_box(figure, lo, hi);
     for (int c = 0; c < 3; c++) {
         bool any = lo[c] <= hi[c];
         middle[c] = any ? (lo[c] + hi[c]) / 2 : 0;

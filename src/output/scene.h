@@ -12,6 +12,7 @@ typedef struct ves_rgb {
 typedef struct ves_colour_scale {
     double lo, hi;
     bool diverging, below, above; /* some values lie outside lo .. hi */
+    bool constant;                /* all values are that in the middle: lo and hi mean nothing */
 } ves_colour_scale;
 
 ves_rgb ves_colour_patch(int index);

@@ -177,6 +177,11 @@ bool ves_end_is_pole(const ves_plan *plan, int patch, int end);
 int ves_end_curve(const ves_plan *plan, int patch, int end);
 bool ves_end_is_capped(const ves_plan *plan, int patch, int end);
 
+/* edge.c, at the start design: warns of end curves that cross themselves; the end that runs nearest to a free
+ * one, and how far from it at most (false: none is near) */
+void ves_edges_cross(const ves_plan *plan, ves_diag *diag);
+bool ves_edge_near(const ves_plan *plan, int patch, int end, ves_end *other, double *gap);
+
 /* lid.c: f->lid[end], where a fan would not do */
 ves_status ves_lid_make(ves_figure_patch *f, int end, ves_arena *arena);
 

@@ -6,6 +6,9 @@
 #include "plan/inside.h"
 
 #include <math.h>
+#include <stdio.h>
+
+enum { HINT = 160 };
 
 static const ves_patch_def *def(const ves_plan *plan, int patch)
 {
@@ -114,6 +117,23 @@ static ves_status caps_check(const ves_plan *plan, ves_diag *diag)
     return VES_OK;
 }
 
+static ves_status open_end(const ves_plan *plan, int patch, int end, beyond what, ves_diag *diag)
+{
+    const ves_problem *p = plan->problem;
+    char hint[HINT] = "";
+    ves_end other;
+    double gap;
+    if (what == FREE && ves_edge_near(plan, patch, end, &other, &gap))
+        snprintf(hint, sizeof hint, "; it is at most %.3g%s from \"%.64s.u%d\": both should use one curve",
+                 gap, p->units ? " m" : "", p->patch[other.patch].name, other.end);
+    return ves_diag_add(
+        diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
+        "the shape is not closed: \"%s.u%d\" is %s; let one other patch end on the same curve, "
+        "end it in a point, or close it with caps: [%s.u%d]%s",
+        p->patch[patch].name, end, what == BRANCHED ? "shared by more than two ends" : "free",
+        p->patch[patch].name, end, hint);
+}
+
 /* A closed shape has two sides and no free edge. */
 static ves_status closed_check(const ves_plan *plan, ves_diag *diag)
 {
@@ -133,13 +153,7 @@ static ves_status closed_check(const ves_plan *plan, ves_diag *diag)
         for (int end = 0; end < 2; end++) {
             beyond what = beyond_end(plan, k, end);
             if (what == SHUT || what == JOINED || ves_end_is_capped(plan, k, end)) continue;
-            return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
-                                "the shape is not closed: \"%s.u%d\" is %s; let one other patch end on "
-                                "the same curve, end "
-                                "it in a point, or close it with caps: [%s.u%d]",
-                                p->patch[k].name, end,
-                                what == BRANCHED ? "shared by more than two ends" : "free", p->patch[k].name,
-                                end);
+            return open_end(plan, k, end, what, diag);
         }
     }
     return VES_OK;
@@ -163,6 +177,7 @@ ves_status ves_plan_orient(ves_plan *plan, ves_diag *diag)
 {
     VES_TRY(ves_plan_sheets(plan, diag));
     branches_find(plan, diag);
+    ves_edges_cross(plan, diag);
     spread_all(plan);
     VES_TRY(caps_check(plan, diag));
     return closed_check(plan, diag);

@@ -167,19 +167,24 @@ int ves_reader_curve_read(ves_reader *reader, const ves_node *node, ves_named *n
         ves_reader_error(reader, VES_NAME, node, "curve \"%s\" is made of itself", name->text);
         return -1;
     }
-    int owner = reader->owner;
-    ves_dim *outer = reader->free, dim = {.any = true};
+    const ves_reader outer = *reader;
+    ves_dim dim = {.any = true};
     ves_curve_def curve = {.name = name->text, .mark = ves_reader_mark(reader, name->word)};
     name->open = true;
     reader->owner = (int)(name - reader->curves.name);
     reader->free = &dim;
+    reader->free_node = NULL;
+    reader->lengths = true;
     if (name->value->kind == VES_NODE_MAP)
         read_steps(reader, name, reader->vary, &curve);
     else
         ves_reader_error(reader, VES_SYNTAX, name->value,
                          "a curve must be a mapping {KIND: ..., apply: [...]}");
-    reader->owner = owner;
-    reader->free = outer;
+    reader->owner = outer.owner;
+    reader->free = outer.free;
+    reader->free_node = outer.free_node;
+    reader->free_name = outer.free_name;
+    reader->lengths = outer.lengths;
     name->open = false;
     name->index = reader->curves_read++;
     curve.dim = dim;

@@ -27,6 +27,47 @@ const char ves_describe_names[] = "A name has letters, digits and `_`, a letter 
                                   "bear the name of a measure, which it then hides. `x y z H K k1 k2` mean "
                                   "the surface in formulas at its points.\n";
 
+const char ves_describe_units[] =
+    "Inside, everything is in SI units and radians. The screen shows numbers as the problem file writes "
+    "them, "
+    "`result.json` in SI units.\n"
+    "Files of shapes (`vesica export`) have lengths in m, whatever the problem file writes; `--unit mm`, or "
+    "any other unit of length here, writes\n"
+    "them in that. Programs that print read STL and OBJ as mm. In a file without units the numbers stay its "
+    "own.\n";
+
+#define POINT "a name at the points of the surface"
+#define CHECK "a name in the checks of expect"
+const ves_term ves_describe_terms[] = {
+    {"x", POINT, "the first coordinate; x, y, z are lengths", "far: {max: \"sqrt(x^2 + y^2 + z^2)\"}"},
+    {"y", POINT, "the second coordinate, the direction of height", "top: {max: y}"},
+    {"z", POINT, "the third coordinate, the axis of a circle unless it says another", "top: {max: z}"},
+    {"u", POINT,
+     "from 0 to 1 across a patch, from one end curve to the other; of a surface given by "
+     "formulas, in its domain",
+     "inner: {integral: \"u < 0.5\"}"},
+    {"v", "a name in formulas of curves and at the points of the surface",
+     "along the end curves of a patch, from 0 to 2 pi; of a surface given by formulas, in its domain",
+     "curves: {ring: {formula: [\"cos(v)\", \"sin(v)\", \"0\"]}}"},
+    {"H", POINT, "mean curvature (k1 + k2)/2, in 1/m: 1/R on a sphere seen from outside",
+     "bend: {integral: \"H^2\"}"},
+    {"K", POINT, "Gauss curvature k1 k2, in 1/m^2: 1/R^2 on a sphere, below 0 on a saddle", "dent: {min: K}"},
+    {"k1", POINT, "the larger principal curvature, in 1/m, signed as H: 1/R on a sphere seen from outside",
+     "sharp: {max: \"abs(k1)\"}"},
+    {"k2", POINT, "the smaller principal curvature, in 1/m, signed as H", "hollow: {min: k2}"},
+    {"objective", CHECK, "what is minimized or maximized, of the best design", "expect: [objective < 12.2]"},
+    {"violation", CHECK, "the largest violation of a constraint by the best design, relative to its size",
+     "expect: [violation < 1e-6]"},
+    {"feasible", CHECK, "1 when the best design meets all constraints and passed its checks, else 0",
+     "expect: [feasible]"},
+    {"evaluations", CHECK, "how many designs the search has measured", "expect: [evaluations <= 5000]"},
+    {"gradients", CHECK, "how many of them with their gradient", "expect: [gradients > 0]"},
+    {"optima", CHECK, "how many different optima the search has found and lists, the best included",
+     "expect: [optima >= 2]"},
+    {0}};
+#undef POINT
+#undef CHECK
+
 void ves_describe_kind(ves_writer *writer, const ves_key *key)
 {
     static const char *const plain[] = {"",

@@ -18,6 +18,13 @@ void ves_describe_example(ves_writer *writer, const char *name, const ves_key *k
 /* What a status comes from and what helps; "" where the sentence says all. */
 const char *ves_describe_status(ves_status status);
 
+/* A name that stands in formulas by itself. Ends with a NULL word. */
+typedef struct ves_term {
+    const char *word, *what, *about, *example;
+} ves_term;
+extern const ves_term ves_describe_terms[];
+
+extern const char ves_describe_units[];    /* what results and files are in, Markdown */
 extern const char ves_describe_formulas[]; /* how formulas are written, Markdown */
 extern const char ves_describe_names[];    /* what may be a name */
 

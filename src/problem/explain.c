@@ -206,7 +206,7 @@ static void unit_help(help *h)
     heading(h);
     ves_dim_text(dim, text);
     ves_dim_describe(dim, each);
-    ves_write(&h->writer, "%s: a unit of %s\n      1 %s = %.17g%s%s\n      example: 2 %s\n", h->word, each,
+    ves_write(&h->writer, "%s: a unit of %s\n      1 %s = %.12g%s%s\n      example: 2 %s\n", h->word, each,
               h->word, factor, ves_dim_plain(dim) ? "" : " ", ves_dim_plain(dim) ? "" : text, h->word);
 }
 
@@ -260,6 +260,12 @@ static void topic_help(help *h, const ves_topic *more)
         if (is_word(h, topic[k].word)) {
             heading(h);
             ves_write(&h->writer, "%s\n%s", topic[k].word, topic[k].text);
+        }
+    for (const ves_term *t = ves_describe_terms; t->word; t++)
+        if (is_word(h, t->word)) {
+            heading(h);
+            ves_write(&h->writer, "%s: %s\n      %s\n      example: %s\n", t->word, t->what, t->about,
+                      t->example);
         }
 }
 

@@ -43,7 +43,10 @@ __attribute__((format(printf, 5, 0))) static void add(ves_reader *reader, ves_se
     if (reader->status == VES_MEMORY) return; /* what seems wrong from then on may only be missing */
     if (severity == VES_ERROR) reader->errors++;
     if (severity == VES_ERROR && reader->status == VES_OK) reader->status = status;
-    if (reader->messages >= MESSAGES) return;
+    if (reader->messages >= MESSAGES) {
+        reader->lost += severity == VES_ERROR;
+        return;
+    }
     vsnprintf(text, sizeof text, format, list);
     keep(reader, (ves_message){severity, status, mark, text, 0});
 }
@@ -90,6 +93,8 @@ void ves_reader_tell(ves_reader *reader, ves_diag *diag)
         const ves_message *m = &reader->message[k];
         ves_diag_add(diag, m->severity, m->status, m->mark, "%s", m->text);
     }
+    for (int k = 0; k < reader->lost; k++) /* only counted: MESSAGES are more than are ever kept */
+        ves_diag_add(diag, VES_ERROR, reader->status, (ves_mark){0}, "%s", "");
 }
 
 bool ves_reader_full(const ves_reader *reader)

@@ -143,24 +143,43 @@ int ves_reader_append(ves_reader *reader, const ves_formula *formula)
     return reader->slots + reader->numbers++;
 }
 
-void ves_reader_check_dim(ves_reader *reader, const ves_node *node, const char *name, const char *unit,
-                          ves_dim dim)
+static void wrong_dim(ves_reader *reader, const ves_node *node, const char *name, ves_dim want, ves_dim dim)
 {
-    if (!reader->dimensions) return;
-    ves_dim want = {0};
-    if (unit)
-        ves_dim_read(unit, &want, NULL);
-    else if (!reader->free)
-        return;
-    else if (reader->free->any)
-        *reader->free = dim;
-    if (!unit) want = *reader->free;
-    if (ves_dim_equal(want, dim)) return;
     char wanted[64], found[64];
     ves_dim_describe(want, wanted);
     ves_dim_describe(dim, found);
     ves_reader_error(reader, VES_UNIT, node, "\"%s\" must be %s, found %s%s", name, wanted, found,
                      ves_dim_plain(dim) ? "; numbers of this file have units" : "");
+}
+
+/* The first key without a unit of its own says what the points of a curve are of. Where it and a length
+ * disagree, it is most likely the one that is wrong. */
+static bool free_dim(ves_reader *reader, const ves_node *node, const char *name, ves_dim dim)
+{
+    const ves_dim length = {.m = 6};
+    if (reader->free->any && !dim.any) {
+        *reader->free = dim;
+        reader->free_node = node;
+        reader->free_name = name;
+    }
+    if (ves_dim_equal(*reader->free, dim)) return true;
+    if (!reader->lengths || !reader->free_node || !ves_dim_equal(length, dim)) return false;
+    wrong_dim(reader, reader->free_node, reader->free_name, length, *reader->free);
+    *reader->free = length;
+    return true;
+}
+
+void ves_reader_check_dim(ves_reader *reader, const ves_node *node, const char *name, const char *unit,
+                          ves_dim dim)
+{
+    if (!reader->dimensions || (!unit && !reader->free)) return;
+    ves_dim want = {0};
+    if (!unit && free_dim(reader, node, name, dim)) return;
+    if (unit)
+        ves_dim_read(unit, &want, NULL);
+    else
+        want = *reader->free;
+    if (!ves_dim_equal(want, dim)) wrong_dim(reader, node, name, want, dim);
 }
 
 static bool bounded(const ves_key *key)

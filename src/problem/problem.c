@@ -115,8 +115,23 @@ typedef struct task {
     const ves_script *script;
     const ves_node *root;
     const ves_measure *const *plugin;
+    const char *const *plugin_file;
     ves_arena *arena;
 } task;
+
+static bool keep_files(ves_problem *p, const char *const *file)
+{
+    int count = 0;
+    while (file && file[count]) count++;
+    if (!count) return true;
+    const char **copy = ves_arena_take(&p->arena, (size_t)count + 1, sizeof *copy);
+    p->plugin_file = copy;
+    for (int k = 0; copy && k < count; k++) {
+        copy[k] = ves_arena_text(&p->arena, file[k], strlen(file[k]));
+        if (!copy[k]) return false;
+    }
+    return copy;
+}
 
 /* One reading, with dimensions checked or not. */
 static ves_status pass(const task *t, ves_arena *arena, ves_problem **problem, bool *units, ves_diag *diag)
@@ -130,7 +145,8 @@ static ves_status pass(const task *t, ves_arena *arena, ves_problem **problem, b
     reader.owner = -1;
     p->units = dimensions;
     p->text = ves_arena_text(&p->arena, t->script->text, t->script->length);
-    ves_status status = p->text ? read_root(&reader, t->root) : VES_MEMORY;
+    bool good = p->text && keep_files(p, t->plugin_file);
+    ves_status status = good ? read_root(&reader, t->root) : VES_MEMORY;
     *units = reader.units;
     if (diag) ves_reader_tell(&reader, diag);
     ves_memory_free(reader.message);
@@ -171,7 +187,8 @@ static ves_status read_text(ves_arena *arena, const char *path, const char *text
                             const ves_read_options *options, ves_problem **problem, ves_diag *diag)
 {
     ves_script script; /* does not outlive this: the problem keeps no marks that would need it */
-    task t = {.path = path, .script = &script, .plugin = options ? options->plugin : NULL, .arena = arena};
+    task t = {.path = path, .script = &script, .arena = arena};
+    if (options) t.plugin = options->plugin, t.plugin_file = options->plugin_file;
     bool marked = length >= 3 && !memcmp(text, "\xEF\xBB\xBF", 3); /* the byte order mark of some editors */
     if (marked) text += 3, length -= 3;
     ves_diag_source(diag, path, text, length);
@@ -203,10 +220,10 @@ static ves_status io_error(const char *path, const char *what, ves_diag *diag)
                         strerror(errno));
 }
 
-/* The whole file, a little more than the limit at most. */
-static ves_status load(FILE *file, const char *path, char **text, size_t *length, ves_diag *diag)
+ves_status ves_problem_load(FILE *file, const char *path, char **text, size_t *length, ves_diag *diag)
 {
     size_t room = 0, got = 1;
+    *text = NULL;
     for (*length = 0; got && *length <= LIMIT; *length += got) {
         if (room - *length < CHUNK) {
             room = 2 * room + CHUNK;
@@ -227,7 +244,7 @@ ves_status ves_problem_read(const char *path, const ves_read_options *options, v
     *problem = NULL;
     FILE *file = fopen(path, "rb");
     if (!file) return io_error(path, "open", diag);
-    ves_status status = load(file, path, &text, &length, diag);
+    ves_status status = ves_problem_load(file, path, &text, &length, diag);
     fclose(file);
     if (status == VES_OK) status = ves_problem_read_text(path, text, length, options, problem, diag);
     ves_memory_free(text);

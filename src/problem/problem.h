@@ -8,6 +8,8 @@
 #ifndef VES_PROBLEM_PROBLEM_H
 #define VES_PROBLEM_PROBLEM_H
 
+#include <stdio.h>
+
 #include "curve/curve.h"
 #include "formula/dimension.h"
 #include "formula/formula.h"
@@ -166,6 +168,7 @@ struct ves_problem {
     ves_arena arena;
     const char *path, *name, *title; /* name: the file's name without folder and ending */
     const char *text;                /* the file as run: with --set applied, comments kept */
+    const char *const *plugin_file;  /* NULL-terminated, or NULL; see ves_read_options */
     bool units;                      /* some number of the file has a unit: then dimensions are checked */
 
     int variables, unknowns, parameters, slots, numbers,
@@ -199,6 +202,10 @@ struct ves_problem {
     ves_search_options test;           /* what `test:` overrides: budget and stages */
     const ves_expect_def *test_expect; /* replaces expect in a test run when given */
 };
+
+/* Loads a whole file, a little more than the reader takes at most; path is for messages. *text is to be freed
+ * with ves_memory_free whatever the answer. */
+ves_status ves_problem_load(FILE *file, const char *path, char **text, size_t *length, ves_diag *diag);
 
 /* limit.c: "> 0", ">= 0", "in [0, 1]"; and a number for people. */
 void ves_limit_text(double low, double high, char text[96]);

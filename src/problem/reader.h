@@ -52,6 +52,7 @@ typedef struct ves_reader {
     ves_status status;    /* of the first failure */
     ves_message *message; /* growing */
     int messages, message_room, errors;
+    int lost;        /* errors that found no room */
     bool dimensions; /* check them */
     bool units;      /* some number has a unit */
     ves_problem *problem;
@@ -70,9 +71,12 @@ typedef struct ves_reader {
     int uses, use_room;
     ves_reader_limit *limit; /* growing */
     int limits, limit_room;
-    int owner;     /* of the numbers that are being read */
-    ves_dim *free; /* dimension of keys without a unit; NULL: none is asked */
-    bool surface;  /* FORMULAS are of u and v, not of v alone */
+    int owner;                 /* of the numbers that are being read */
+    ves_dim *free;             /* dimension of keys without a unit; NULL: none is asked */
+    const ves_node *free_node; /* of a curve: what fixed it, and as which key */
+    const char *free_name;
+    bool lengths; /* those keys are most likely lengths: a curve is being read */
+    bool surface; /* FORMULAS are of u and v, not of v alone */
 
     ves_names curves, patches, places, measures;
     const ves_node *vary; /* the section, or NULL */

@@ -150,7 +150,7 @@ static void units(ves_writer *w)
 {
     int count;
     const char *const *name = ves_unit_names(&count);
-    ves_write(w, "\n## Units\n\n| unit | is |\n| --- | --- |\n");
+    ves_write(w, "\n## Units\n\n%s\n| unit | is |\n| --- | --- |\n", ves_describe_units);
     for (int k = 0; k < count; k++) {
         ves_dim dim;
         double factor;

@@ -247,6 +247,7 @@ static bool read_bounds(slots *s, const ves_node *node, const char *name, int co
     const ves_key key = {.name = name, .kind = VES_NUMBER};
     ves_dim *outer = r->free;
     bool good = true;
+    int before = r->errors;
     dim->any = true;
     r->free = dim;
     for (int k = 0; k < count; k++) {
@@ -254,7 +255,7 @@ static bool read_bounds(slots *s, const ves_node *node, const char *name, int co
         good = good && !isnan(value[k]);
     }
     r->free = outer;
-    return good;
+    return good && r->errors == before; /* numbers of different dimensions cannot be compared */
 }
 
 static void empty_range(slots *s, const ves_node *node, double low, double high)
@@ -276,7 +277,8 @@ static bool book_range(slots *s, const ves_declared *d, double bound[3], ves_dim
     if (!length_wanted) return true;
     ves_reader_error(
         s->reader, VES_UNIT, d->word,
-        "numbers of this file have units: give the range of T, as in {T: [-10 mm, 0 mm, 10 mm]}");
+        "numbers of this file have units: give the range of %s, as in {%s: [-10 mm, 0 mm, 10 mm]}",
+        d->word->text, d->word->text);
     return false;
 }
 

@@ -14,7 +14,16 @@ enum { LIMIT = 64 * 1024 * 1024, NUMBER = 96 };
 typedef struct best {
     const char *run;
     const ves_node *variables;
+    const ves_node *plugins; /* the files of the measures that it needs, or NULL */
+    bool other;              /* of another problem, perhaps: it may lack variables */
 } best;
+
+/* Where a problem is read from, more than once: stdin cannot be. */
+typedef struct source {
+    const char *path;
+    char *text; /* of stdin; NULL: path is a file */
+    size_t length;
+} source;
 
 static const ves_mark NOWHERE = {0};
 
@@ -76,6 +85,7 @@ static ves_status best_read(const char *run, ves_arena *arena, best *out, ves_di
         return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE,
                             "\"%s\" is damaged or not whole: run \"%s/problem.yaml\" again", path, run);
     out->variables = ves_node_find(root, "variables");
+    out->plugins = ves_node_find(root, "plugins");
     if (out->variables && out->variables->kind == VES_NODE_MAP) return VES_OK;
     return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE, "\"%s\" holds no variables", path);
 }
@@ -100,56 +110,86 @@ static bool is_number(const ves_node *node)
     return node->kind == VES_NODE_WORD && ves_text_number(node->text, &value);
 }
 
-static ves_status missing(const best *b, const ves_problem *problem, ves_arena *arena, ves_diag *diag)
+/* The names that the run has not. */
+static char *missing(const best *b, const ves_problem *problem, ves_arena *arena, int *count)
 {
     char *list = ves_arena_text(arena, "", 0);
+    *count = 0;
     for (int k = 0; list && k < problem->variables; k++) {
         const char *name = problem->variable[k].name;
-        if (!ves_node_find(b->variables, name))
-            list = ves_arena_format(arena, "%s%s\"%s\"", list, *list ? ", " : "", name);
+        if (ves_node_find(b->variables, name)) continue;
+        list = ves_arena_format(arena, "%s%s\"%s\"", list, *list ? ", " : "", name);
+        ++*count;
     }
+    return list;
+}
+
+/* A start from another problem may leave some variables at the start of the file, but not all. */
+static ves_status missing_tell(const best *b, const ves_problem *problem, ves_arena *arena, ves_diag *diag)
+{
+    int count;
+    const char *list = missing(b, problem, arena, &count);
     if (!list) return no_memory(diag);
+    if (!count) return VES_OK;
+    if (b->other && count < problem->variables) {
+        ves_diag_add(diag, VES_NOTE, VES_OK, NOWHERE,
+                     "the run \"%s\" has no variable %s: %s at the start that the file gives", b->run, list,
+                     count == 1 ? "it stands" : "they stand");
+        return VES_OK;
+    }
     return ves_diag_add(diag, VES_ERROR, VES_NAME, NOWHERE,
-                        "the run \"%s\" has no variable %s: a start needs all variables of the problem",
+                        b->other ? "the run \"%s\" has none of the variables of the problem: %s"
+                                 : "the run \"%s\" has no variable %s, but its problem has",
                         b->run, list);
 }
 
-/* Appends one override for each variable of the problem. */
+/* Appends one override for each variable of the problem that the run has. */
 static ves_status best_apply(const best *b, const ves_problem *problem, ves_arena *arena,
-                             ves_override *override, ves_diag *diag)
+                             ves_override *override, int *count, ves_diag *diag)
 {
+    *count = 0;
+    VES_TRY(missing_tell(b, problem, arena, diag));
     for (int k = 0; k < problem->variables; k++) {
         const ves_variable *v = &problem->variable[k];
         const ves_node *number = ves_node_find(b->variables, v->name);
-        if (!number) return missing(b, problem, arena, diag);
+        if (!number) continue;
         if (!is_number(number))
             return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE,
                                 "the run \"%s\" has no number for \"%s\"", b->run, v->name);
-        override[k] = (ves_override){v->name, with_unit(number, v, arena)};
-        if (!override[k].value) return no_memory(diag);
+        ves_override *o = &override[(*count)++];
+        *o = (ves_override){v->name, with_unit(number, v, arena)};
+        if (!o->value) return no_memory(diag);
     }
     return VES_OK;
 }
 
+static ves_status read(const source *from, const ves_read_options *options, ves_problem **problem,
+                       ves_diag *diag)
+{
+    if (!from->text) return ves_problem_read(from->path, options, problem, diag);
+    return ves_problem_read_text(from->path, from->text, from->length, options, problem, diag);
+}
+
 /* Reads the problem twice: first to learn its variables and their dimensions. */
-static ves_status read_at(const char *file, const best *b, const ves_read_options *read, ves_opened *opened,
-                          ves_diag *diag)
+static ves_status read_at(const source *from, const best *b, const ves_read_options *options,
+                          ves_opened *opened, ves_diag *diag)
 {
     ves_arena *arena = &opened->arena;
     ves_problem *first = NULL;
     ves_diag *quiet = ves_diag_create();
     if (!quiet) return no_memory(diag);
-    ves_status status = ves_problem_read(file, read, &first, quiet);
+    ves_status status = read(from, options, &first, quiet);
     ves_diag_destroy(quiet);
-    if (status != VES_OK) return ves_problem_read(file, read, &opened->problem, diag);
-    int count = first->variables;
-    ves_override *all = ves_arena_take(arena, (size_t)(count + read->overrides), sizeof *all);
-    if (!all) status = no_memory(diag);
-    if (status == VES_OK) status = best_apply(b, first, arena, all, diag);
+    if (status != VES_OK) return read(from, options, &opened->problem, diag);
+    int count = 0;
+    ves_override *all = ves_arena_take(arena, (size_t)(first->variables + options->overrides), sizeof *all);
+    status = all ? best_apply(b, first, arena, all, &count, diag) : no_memory(diag);
     if (status == VES_OK) {
-        for (int k = 0; k < read->overrides; k++) all[count + k] = read->override[k];
-        ves_read_options options = {count + read->overrides, all, read->plugin};
-        status = ves_problem_read(file, &options, &opened->problem, diag);
+        ves_read_options whole = *options;
+        for (int k = 0; k < options->overrides; k++) all[count + k] = options->override[k];
+        whole.overrides = count + options->overrides;
+        whole.override = all;
+        status = read(from, &whole, &opened->problem, diag);
     }
     ves_problem_destroy(first);
     return status;
@@ -167,29 +207,70 @@ static const char *last_part(const char *path, ves_arena *arena)
     return ves_arena_text(arena, path + begin, end - begin);
 }
 
+/* What cannot be read may only lack the measures that the run was made with. */
+static void plugins_tell(const best *b, const char *folder, ves_arena *arena, ves_diag *diag)
+{
+    char *list = ves_arena_text(arena, "", 0);
+    if (!b->plugins || b->plugins->kind != VES_NODE_LIST) return;
+    for (int k = 0; list && k < b->plugins->count; k++)
+        if (b->plugins->item[k]->kind == VES_NODE_WORD)
+            list = ves_arena_format(arena, "%s --plugin %s", list, b->plugins->item[k]->text);
+    if (list && *list)
+        ves_diag_add(diag, VES_NOTE, VES_OK, NOWHERE,
+                     "the run \"%s\" was made with measures of a plugin, which it needs again:%s", folder,
+                     list);
+}
+
+/* A file without a title is called as its run, not as the copy in the folder. */
+static ves_status name_run(ves_opened *opened, ves_diag *diag)
+{
+    ves_problem *p = opened->problem;
+    if (p->title != p->name) return VES_OK;
+    p->title = ves_arena_text(&p->arena, opened->name, strlen(opened->name));
+    return p->title ? VES_OK : no_memory(diag);
+}
+
 static ves_status open_run(const char *path, const ves_open_options *options, ves_opened *opened,
                            ves_diag *diag)
 {
-    best b;
-    const char *file = ves_folder_path(path, "problem.yaml", &opened->arena);
+    best own = {0}, other = {0};
+    const source from = {.path = ves_folder_path(path, "problem.yaml", &opened->arena)};
     opened->name = last_part(path, &opened->arena);
-    if (!file || !opened->name) return no_memory(diag);
-    VES_TRY(best_read(options->start ? options->start : path, &opened->arena, &b, diag));
-    return read_at(file, &b, &options->read, opened, diag);
+    if (!from.path || !opened->name) return no_memory(diag);
+    ves_status status = best_read(path, &opened->arena, &own, options->start ? NULL : diag);
+    if (options->start) status = best_read(options->start, &opened->arena, &other, diag);
+    if (status != VES_OK) return status;
+    other.other = true;
+    status = read_at(&from, options->start ? &other : &own, &options->read, opened, diag);
+    if (status == VES_NAME) plugins_tell(&own, path, &opened->arena, diag);
+    return status == VES_OK ? name_run(opened, diag) : status;
+}
+
+static ves_status open_source(const source *from, const ves_open_options *options, ves_opened *opened,
+                              ves_diag *diag)
+{
+    best b;
+    if (options->start) {
+        VES_TRY(best_read(options->start, &opened->arena, &b, diag));
+        b.other = true;
+        VES_TRY(read_at(from, &b, &options->read, opened, diag));
+    } else {
+        VES_TRY(read(from, &options->read, &opened->problem, diag));
+    }
+    opened->name = opened->problem->name;
+    return VES_OK;
 }
 
 static ves_status open_file(const char *path, const ves_open_options *options, ves_opened *opened,
                             ves_diag *diag)
 {
-    best b;
-    if (options->start) {
-        VES_TRY(best_read(options->start, &opened->arena, &b, diag));
-        VES_TRY(read_at(path, &b, &options->read, opened, diag));
-    } else {
-        VES_TRY(ves_problem_read(path, &options->read, &opened->problem, diag));
-    }
-    opened->name = opened->problem->name;
-    return VES_OK;
+    source from = {.path = path};
+    if (strcmp(path, "-")) return open_source(&from, options, opened, diag);
+    from.path = "stdin";
+    ves_status status = ves_problem_load(stdin, from.path, &from.text, &from.length, diag);
+    if (status == VES_OK) status = open_source(&from, options, opened, diag);
+    ves_memory_free(from.text);
+    return status;
 }
 
 ves_status ves_study_open(const char *path, const ves_open_options *options, ves_opened *opened,

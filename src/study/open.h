@@ -1,4 +1,5 @@
-/* Opening what a user names: a problem file, or a run folder, which is its problem at the best design. */
+/* Opening what a user names: a problem file (-: stdin), or a run folder, which is its problem at the best
+ * design. */
 #ifndef VES_STUDY_OPEN_H
 #define VES_STUDY_OPEN_H
 

@@ -168,6 +168,16 @@ static void statistics(const ves_run *run, ves_json *json)
     ves_json_end(json, ']');
 }
 
+/* The files to give again with --plugin. */
+static void plugins(const ves_problem *problem, ves_json *json)
+{
+    const char *const *file = problem->plugin_file;
+    if (!file) return;
+    ves_json_array(json, "plugins");
+    for (; *file; file++) ves_json_text(json, NULL, *file);
+    ves_json_end(json, ']');
+}
+
 void ves_result_write(const ves_run *run, ves_json *json)
 {
     const ves_problem *problem = run->problem;
@@ -188,6 +198,7 @@ void ves_result_write(const ves_run *run, ves_json *json)
     ves_json_text(json, "stop", run->stop);
     ves_json_integer(json, "seed", (long)run->seed);
     ves_json_text(json, "version", VESICA_VERSION);
+    plugins(problem, json);
     grids(run, json);
     start(run, json);
     optima(run, json);

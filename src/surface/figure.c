@@ -17,6 +17,38 @@ double ves_figure_v(const ves_figure_patch *patch, int node)
     return patch->v_min + node % patch->columns * range / patch->nv + slide;
 }
 
+static void times(double *plane, int count, double factor)
+{
+    for (int k = 0; plane && k < count; k++) plane[k] *= factor;
+}
+
+void ves_figure_scale(ves_figure *figure, double factor, const char *unit)
+{
+    figure->unit = unit;
+    for (int k = 0; k < figure->patches; k++) {
+        ves_figure_patch *p = &figure->patch[k];
+        int count = p->rows * p->columns;
+        for (int c = 0; c < 3; c++) times(p->X[c], count, factor);
+        times(p->H, count, 1 / factor);
+        times(p->k1, count, 1 / factor);
+        times(p->k2, count, 1 / factor);
+        times(p->K, count, 1 / (factor * factor));
+    }
+}
+
+bool ves_figure_box(const ves_figure *figure, double low[3], double high[3])
+{
+    for (int c = 0; c < 3; c++) low[c] = HUGE_VAL, high[c] = -HUGE_VAL;
+    for (int k = 0; k < figure->patches; k++) {
+        const ves_figure_patch *p = &figure->patch[k];
+        for (int c = 0; c < 3; c++)
+            for (int s = 0; s < p->rows * p->columns; s++)
+                if (isfinite(p->X[c][s]))
+                    low[c] = fmin(low[c], p->X[c][s]), high[c] = fmax(high[c], p->X[c][s]);
+    }
+    return low[0] <= high[0] && low[1] <= high[1] && low[2] <= high[2];
+}
+
 /* Node (i, j) with j running on past the seam of a periodic patch, and a pole as its first node. */
 static int node_at(const ves_figure_patch *patch, int i, int j)
 {

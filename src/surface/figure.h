@@ -43,6 +43,12 @@ struct ves_figure {
     ves_figure_patch *patch;
 };
 
+/* Other units: lengths times factor, curvatures accordingly. Before any mesh is made of it. */
+void ves_figure_scale(ves_figure *figure, double factor, const char *unit);
+
+/* The corners of the box around all nodes; false: it has none that is finite. */
+bool ves_figure_box(const ves_figure *figure, double low[3], double high[3]);
+
 /* Triangles of one patch alone, corners as nodes of the patch: columns close, all of a pole is its first
  * node. Outward; quads are cut along the shorter diagonal. corner has room for 2 nu nv triangles; returns how
  * many were made. */

@@ -90,7 +90,8 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
 
 const ves_measure ves_measure_centroid = {
     .name = "centroid",
-    .about = "one component of the centre of gravity, of the surface or of the volume",
+    .about = "one component of the centre of gravity, along y unless `along` is given, of the surface or of "
+             "the volume",
     .unit = "m",
     .degree = 1,
     .surface = VES_X | VES_NORMAL | VES_AREA,

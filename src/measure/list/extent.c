@@ -29,14 +29,15 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
     ves_direction_gradient(input, ALONG, &d, back, number_adjoint);
 }
 
-const ves_measure ves_measure_extent = {.name = "extent",
-                                        .about = "how far the surface reaches along a direction",
-                                        .unit = "m",
-                                        .degree = 1,
-                                        .extreme = true,
-                                        .looks = VES_EXTREME_LOOKS,
-                                        .surface = VES_EXTREME_SURFACE,
-                                        .keys = KEYS,
-                                        .room = ves_extent_room,
-                                        .eval = eval,
-                                        .gradient = gradient};
+const ves_measure ves_measure_extent = {
+    .name = "extent",
+    .about = "how far the surface reaches along a direction, y unless it is given",
+    .unit = "m",
+    .degree = 1,
+    .extreme = true,
+    .looks = VES_EXTREME_LOOKS,
+    .surface = VES_EXTREME_SURFACE,
+    .keys = KEYS,
+    .room = ves_extent_room,
+    .eval = eval,
+    .gradient = gradient};
