@@ -184,7 +184,7 @@ Test(cli_screen, the_picture_of_a_run_shows_the_mean_curvature)
     root_remove();
 }
 
-/* A wall whose equation has no number at the end of its interval cannot be measured anywhere. */
+/* A wall whose equation has no number at an end of its interval, nor near it, cannot be measured anywhere. */
 Test(cli_screen, a_grid_that_nothing_could_choose_is_not_said_to_be_the_file_s)
 {
     const char *flat =
@@ -192,7 +192,7 @@ Test(cli_screen, a_grid_that_nothing_could_choose_is_not_said_to_be_the_file_s)
         "curves: {low: {circle: {radius: r}}, high: {like: low, apply: [{translate: [0, 0, h]}]}}\n"
         "patches: {wall: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: low}, {u: 1, "
         "position: high}]}}\nshape: {closed: true, caps: [wall.u0, wall.u1]}\n"
-        "solve: {unknown: h, in: [0, 4], equation: volume == 3}\nminimize: area\n";
+        "solve: {unknown: h, in: [0, 4], equation: volume + sqrt(depth - 1) == 3}\nminimize: area\n";
     char given[1000];
     root_make();
     write_file("flat.yaml", flat);

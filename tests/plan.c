@@ -10,6 +10,8 @@
 #include "surface/figure.h"
 #include "vesica/plan.h"
 
+static const double PI = 3.14159265358979323846;
+
 typedef struct bed {
     ves_problem *problem;
     ves_plan *plan;
@@ -263,6 +265,48 @@ Test(plan, an_equation_without_a_root_is_a_verdict)
     /* the root is bracketed to 4e-16 of it: rounding, 9e-16 was seen */
     cr_expect(fabs(verdict.value - 6) < 1e-12, "2 pi h with h = 3/pi: got %.15g", verdict.value);
     bed_clear(&b);
+}
+
+/* Where the equation changes its sign by a jump or over a pole there is no root. */
+#define TUBE_OF(equation, in)                                                                                \
+    "vesica: 1\nvariables: {r: [0.5, 1, 2]}\nquadrature: {u: 8, v: 16}\n"                                    \
+    "solve: {unknown: h, in: " in ", equation: \"" equation "\"}\n"                                          \
+    "curves: {p: {circle: {radius: r}}, q: {like: p, apply: [{translate: [0, 0, h]}]}}\n"                    \
+    "patches: {w: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: p}, {u: 1, position: q}]}}\n"   \
+    "shape: {closed: true, caps: [w.u0, w.u1]}\nminimize: area\n"
+
+Test(plan, a_change_of_sign_is_not_yet_a_root)
+{
+    const struct {
+        const char *text;
+        ves_status want;
+        double height;
+    } table[] = {
+        {TUBE_OF("volume == 3", "[0.5, 2]"), VES_OK, 3 / PI},
+        {TUBE_OF("1/(area - 7.7) == 0", "[0.5, 2]"), VES_NO_ROOT, 0},
+        {TUBE_OF("1/(depth - 4/3)^3 == 0.5", "[0.5, 1.9]"), VES_NO_ROOT, 0},
+        {TUBE_OF("sign(depth - 1.3) == 0.5", "[0.5, 1.9]"), VES_NO_ROOT, 0},
+        {TUBE_OF("depth + 0.01*sign(depth - 1.3) == 1.305", "[0.5, 1.9]"), VES_NO_ROOT, 0},
+        {TUBE_OF("sign(depth - 1.3)*sqrt(abs(depth - 1.3)) == 0", "[0.5, 1.9]"), VES_OK, 1.3},
+        {TUBE_OF("1/depth^2 == 0.64", "[1e-3, 1.9]"), VES_OK, 1.25},
+        /* no shape at 0, a shape without volume at the lower end that is taken instead */
+        {TUBE_OF("volume == 3", "[0, 4]"), VES_OK, 3 / PI},
+        {TUBE_OF("volume == 3", "[-4, 0]"), VES_OK, -3 / PI},
+        {TUBE_OF("volume + sqrt(depth - 1) == 3", "[0, 4]"), VES_NO_BRACKET, 0},
+        {TUBE_OF("volume*sqrt(3.99 - depth) == 0.01*pi", "[2, 4]"), VES_NO_ROOT, 0},
+        {TUBE_OF("volume + 0.1*sqrt(3.99 - depth) == 3*pi + 0.1*sqrt(0.99)", "[0.5, 4]"), VES_OK, 3}};
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        bed b = bed_make(table[k].text);
+        double x = 1;
+        ves_design design;
+        ves_status got = ves_plan_measure(b.plan, &x, 0, &design);
+        cr_expect_eq(got, table[k].want, "case %zu: %s", k, ves_status_text(got));
+        /* the bracket ends 4e-16 of h wide, and rounding of the measures is as large */
+        if (got == VES_OK)
+            cr_expect(fabs(design.slot[1] - table[k].height) < 1e-13 * fabs(table[k].height),
+                      "case %zu: h %.17g", k, design.slot[1]);
+        bed_clear(&b);
+    }
 }
 
 /* A wall that runs out, back and out again: somewhere its normal turns over. */

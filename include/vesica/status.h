@@ -1,7 +1,8 @@
 /* Status: what every fallible function of vesica returns.
  *
  * 0 is success. A positive status says "this candidate is no good": nothing has changed, a search goes on.
- * A negative status says "the run cannot go on": whoever met the fault has written the one diagnostic. */
+ * A negative status says "the run cannot go on": whoever met the fault has written the one diagnostic, if
+ * it was given a ves_diag. */
 #ifndef VESICA_STATUS_H
 #define VESICA_STATUS_H
 
@@ -24,6 +25,7 @@ extern "C" {
     X(CUT, 10, "measuring stopped: already worse than the cutoff")                                           \
     X(TOUCHES, 11, "the surface touches itself")                                                             \
     X(OUTSIDE, 12, "a number of the problem has left its range")                                             \
+    X(NO_BRACKET, 13, "the equation to solve cannot be measured at the ends of solve.in, nor near them")     \
     X(SYNTAX, -1, "the text cannot be read")                                                                 \
     X(NAME, -2, "a name is not known")                                                                       \
     X(UNIT, -3, "a dimension does not fit")                                                                  \

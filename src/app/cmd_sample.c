@@ -90,7 +90,8 @@ static int bound(app *a, app_shape *shape)
 {
     ves_design design;
     ves_status status = ves_plan_measure(shape->plan, shape->x, 0, &design);
-    if (status < VES_OK || status == VES_NO_ROOT) return app_fail(a, status, "%s", ves_status_text(status));
+    if (status < VES_OK || status == VES_NO_ROOT || status == VES_NO_BRACKET)
+        return app_fail(a, status, "%s", ves_status_text(status));
     if (status > VES_OK)
         ves_diag_add(a->diag, VES_WARNING, status, (ves_mark){0}, "%s", ves_status_text(status));
     return APP_DONE;

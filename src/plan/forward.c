@@ -20,7 +20,7 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
         ves_status status =
             p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]);
         /* a plugin's own word for "cannot be measured"; only the plan cuts */
-        if (status > VES_OUTSIDE || status == VES_CUT) status = VES_NO_NUMBER;
+        if (status > VES_NO_BRACKET || status == VES_CUT) status = VES_NO_NUMBER;
         VES_TRY(status);
         if (!isfinite(plan->value[m])) return VES_NO_NUMBER;
     }
@@ -74,16 +74,37 @@ static ves_status residual(ves_plan *plan, const double *x, int index, double h,
     return isfinite(*value) ? VES_OK : VES_NO_NUMBER;
 }
 
+/* An end of the bracket; where it cannot be measured (a tube of no height, say), a point a little inside,
+ * the first of a few that can: the same for every candidate. */
+static ves_status bracket_end(ves_plan *plan, const double *x, int index, bool upper, double *h,
+                              double *value)
+{
+    static const double inward[] = {0, 1e-6, 1e-4, 1e-2};
+    const ves_solve *s = plan->problem->solve;
+    for (size_t k = 0; k < sizeof inward / sizeof *inward; k++) {
+        double way = inward[k] * (s->hi - s->lo);
+        *h = upper ? s->hi - way : s->lo + way;
+        ves_status status = residual(plan, x, index, *h, value);
+        if (status <= VES_OK) return status;
+    }
+    /* ves_plan_outside is to tell of the end that the file gives */
+    ves_plan_bind(plan, x, upper ? s->hi : s->lo);
+    return ves_plan_limit(plan) ? VES_OUTSIDE : VES_NO_BRACKET;
+}
+
+/* Where a function that is continuous changes its sign it is small: h is exact to 4e-16 of it, so that even
+ * a root's infinite slope, as of sqrt(h), leaves 2e-8. Across a jump or a pole it stays as large as it was. */
+static const double VANISHES = 1e-6;
+
 /* A bracketed root by inverse quadratic interpolation, secant or bisection (Brent 1973, ch. 4). It starts
  * from the whole bracket for every candidate: the same x gives the same bits whatever was evaluated before. */
 static ves_status solve(ves_plan *plan, const double *x, int index, double *root)
 {
-    const ves_solve *s = plan->problem->solve;
-    double a = s->lo, b = s->hi, fa, fb;
-    VES_TRY(residual(plan, x, index, a, &fa));
-    VES_TRY(residual(plan, x, index, b, &fb));
+    double a, b, fa, fb;
+    VES_TRY(bracket_end(plan, x, index, false, &a, &fa));
+    VES_TRY(bracket_end(plan, x, index, true, &b, &fb));
     if ((fa > 0) == (fb > 0) && fa != 0 && fb != 0) return VES_NO_ROOT;
-    double c = a, fc = fa, step = b - a, before = step;
+    double c = a, fc = fa, step = b - a, before = step, small = VANISHES * fmax(fabs(fa), fabs(fb));
     for (int k = 0; k < 100; k++) {
         if ((fb > 0) == (fc > 0)) c = a, fc = fa, step = before = b - a;
         if (fabs(fc) < fabs(fb)) {
@@ -110,10 +131,12 @@ static ves_status solve(ves_plan *plan, const double *x, int index, double *root
         }
         a = b, fa = fb;
         b += fabs(step) > tolerance ? step : half > 0 ? tolerance : -tolerance;
-        VES_TRY(residual(plan, x, index, b, &fb));
+        ves_status status = residual(plan, x, index, b, &fb);
+        if (isinf(fb)) return VES_NO_ROOT; /* a pole, met exactly */
+        VES_TRY(status);
     }
     *root = b;
-    return VES_OK;
+    return fabs(fb) <= small ? VES_OK : VES_NO_ROOT;
 }
 
 ves_status ves_plan_forward(ves_plan *plan, const double *x, int index, plan_program which, bool gradient)

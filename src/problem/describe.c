@@ -213,7 +213,10 @@ const char *ves_describe_status(ves_status status)
     case VES_NO_ROOT:
         return "Both ends of the interval `in` of `solve` lie on one side of its equation. Widen it, or "
                "narrow the "
-               "ranges of the\n      variables.";
+               "ranges of the\n      variables. Or the equation jumps over 0, as 1/(area - 2) or sign() do.";
+    case VES_NO_BRACKET:
+        return "At `in` of `solve`, and up to 1 % inside it, the shape fails. Give ends where it can be "
+               "measured,\n      or narrow the ranges of the variables.";
     case VES_NO_NUMBER:
         return "A formula or a measure gave infinity, 0/0 or the root of a negative number.";
     case VES_SELF_INTERSECTS:
