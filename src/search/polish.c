@@ -133,6 +133,31 @@ static void note_saddles(polish *p)
                      name_variable(p->session, first->mostly), stuck ? "not every one could be left" : way);
 }
 
+/* Where the gradient failed first, and how often. */
+static ves_status note_mended(polish *p)
+{
+    enum { NAMED = 4 };
+    ves_session *session = p->session;
+    long mended = 0;
+    const double *x = NULL;
+    for (int k = p->tasks - 1; k >= 0; k--) {
+        if (!p->task[k].descent.mended) continue;
+        mended += p->task[k].descent.mended;
+        x = p->task[k].descent.first_mended;
+    }
+    if (!mended) return VES_OK;
+    char *text = NULL;
+    for (int i = 0; i < session->n && i < NAMED; i++) {
+        text = ves_arena_format(&session->arena, "%s%s%s = %.6g", text ? text : "", text ? ", " : "",
+                                name_variable(session, i), x[i]);
+        if (!text) return VES_MEMORY;
+    }
+    ves_session_note(
+        session, "the gradient is no number at %ld candidate%s, first at %s%s: differences stood in for it",
+        mended, mended == 1 ? "" : "s", text, session->n > NAMED ? " ..." : "");
+    return session->fault;
+}
+
 /* The sentence of the best end's task. */
 static void tell_stop(polish *p, const ves_polish *options)
 {
@@ -225,7 +250,8 @@ ves_status ves_polish_run(ves_session *session, const ves_polish *options, long 
     if (status == VES_OK) {
         tell_stop(&p, options);
         note_saddles(&p);
-        status = collect(&p);
+        status = note_mended(&p);
+        if (status == VES_OK) status = collect(&p);
     }
     for (int k = 0; k < p.tasks; k++) ves_descent_destroy(&p.task[k].descent);
     return status;

@@ -228,6 +228,7 @@ static bool judge(ves_saddle *s, int n, double noise)
 ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *point, bool *negative)
 {
     int n = d->session->n;
+    long mended = d->mended;
     *negative = false;
     memcpy(s->base, point->u, (size_t)n * sizeof(double));
     VES_TRY(ves_descent_look(d, s->base, true));
@@ -241,7 +242,7 @@ ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *poin
     if (!s->frees) return VES_OK;
     bool ok = true;
     VES_TRY(differences(s, d, &ok));
-    if (!ok) return VES_OK;
+    if (!ok || d->mended > mended) return VES_OK; /* differences of differences tell nothing */
     double noise = symmetrise(s->frees, s->hessian);
     project(s);
     ves_eigen_symmetric(s->frees, s->hessian, s->value, s->vector);
