@@ -309,6 +309,23 @@ Test(study, what_is_wrong_with_a_design_is_a_note)
     finish(&t);
 }
 
+/* A violation is told in units of its size everywhere, whatever `within` says. */
+Test(study, violations_are_told_in_one_unit)
+{
+    trial t =
+        run_with("vesica: 1\nvariables: {r: [0.5, 1, 2]}\ncurves: {p: {circle: {radius: r}}, q: {like: p, "
+                 "apply: [{translate: [0, 0, 2]}]}}\npatches: {w: {operator: {power: 1, a: 0}, conditions: "
+                 "[{u: 0, position: p}, {u: 1, position: q}]}}\nminimize: depth\n"
+                 "constraints: [{require: area >= 100, within: 0.01}]\n",
+                 &(ves_run_options){.evaluations = 500}, NULL);
+    const ves_run *r = t.run;
+    /* the largest has an area of 8 pi */
+    cr_assert(r->any && !r->feasible && fabs(r->best.violation - (1 - 0.08 * PI)) < 1e-6);
+    cr_assert(r->optima > 0 && fabs(r->optimum[0].violation - r->best.violation) < 1e-12);
+    for (int k = 0; k < r->notes; k++) cr_expect(strstr(r->note[k], "least violation") == NULL);
+    finish(&t);
+}
+
 Test(study, a_test_run_has_its_own_budget_and_checks)
 {
     static const char text[] = BOTTLE "expect: [evaluations < 0]\ntest: {evaluations: 300, expect: "

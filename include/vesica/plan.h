@@ -1,5 +1,5 @@
 /* Plan: a Problem made ready to be evaluated. Everything that can be known before x is known is paid once, in
- * ves_plan_create; an evaluation allocates nothing.
+ * ves_plan_create; an evaluation allocates nothing, but for a proof (VES_WANT_PROOF), which makes a mesh.
  *
  *     x --bind--> numbers --curves--> modes --solve--> patches --sample--> samples --measure--> m[]
  *       --judge--> Verdict
@@ -44,15 +44,12 @@ void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
  * relative change that was left; NAN when nothing was chosen or nothing could be measured. */
 double ves_plan_grid(const ves_plan *plan, int quadrature[2]);
 
-/* The same choice for the design x, or, where x is NULL or cannot be measured, as above; whatever the problem
- * says of its grid. *change: what ves_plan_grid returns. Returns VES_OK, or negative for faults. */
-ves_status ves_plan_choose(const ves_problem *problem, const double *x, int quadrature[2], double *change);
-
 /* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation. With
  * VES_WANT_PROOF the candidate is also measured at level 1, must agree within 1 %, must not violate a
  * constraint by 1 % of its size more, and must not cross itself (validity: self_intersection). The arrays of
- * verdict are the caller's. A candidate that fails is verdict->status > 0; returns negative for faults alone,
- * VES_RANGE: no such level. */
+ * verdict are the caller's, and ask->level does not matter to a proof. A candidate that fails is
+ * verdict->status > 0. Returns VES_OK; VES_RANGE: there is no such level (without a diagnostic: there is
+ * nowhere to write it); VES_MEMORY: of a proof. */
 ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict);
 
 /* The two sides of a constraint (ves_problem_constraint tells its text and relation). */
@@ -115,7 +112,7 @@ ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u,
 
 /* The shape at x on nu x nv cells a patch (0: chosen), for files, pictures and meshes. Owned by the caller. A
  * design that fails is drawn all the same, with a warning in diag, as long as it has a shape: a positive
- * status says that it has none (VES_NO_ROOT) and *figure is NULL, as after VES_MEMORY. */
+ * status says that it has none (VES_NO_ROOT, VES_NO_BRACKET) and *figure is NULL, as after VES_MEMORY. */
 ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_figure **figure,
                            ves_diag *diag);
 

@@ -22,7 +22,7 @@ enum {
 /* One question to the evaluator. */
 typedef struct ves_ask {
     const double *x; /* [n] candidate */
-    int level;       /* how fine: 0 in the loop, 1 for re-checks */
+    int level;       /* how fine: 0 in the loop, 1 with VES_WANT_PROOF: a plan then looks at both */
     double cutoff;   /* stop measuring (VES_CUT) once the violation exceeds this; HUGE_VAL: never */
     unsigned want;   /* VES_WANT_... */
 } ves_ask;

@@ -232,8 +232,7 @@ static ves_status fill(box *b, ves_session *session)
         session->stop = ves_status_text(VES_INTERRUPTED);
     }
     if (proved && best->verdict.violation > session->tolerance)
-        ves_session_note(session, "no feasible candidate was found: the least violation is %.3g",
-                         best->verdict.violation);
+        ves_session_note(session, "no feasible candidate was found");
     if (session->fault) return session->fault;
     bool ok = fill_best(r, session, best, proved) && fill_optima(r, session, &c) && fill_logs(r, session);
     return ok ? VES_OK : VES_MEMORY;
