@@ -238,6 +238,9 @@ Test(api, a_plan_tells_its_grid_and_its_patches)
     cr_assert_eq(ves_plan_create(problem, &(ves_plan_options){{grid[0], 40}}, &same, NULL), VES_OK);
     cr_expect(isnan(ves_plan_grid(same, again)) && again[0] == grid[0] && again[1] == 40);
     ves_plan_destroy(same);
+    double left;
+    cr_assert_eq(ves_plan_choose(problem, NULL, again, &left), VES_OK);
+    cr_expect(left == change && again[0] == grid[0] && again[1] == grid[1]);
     ves_patch_facts facts = ves_plan_patch(plan, 0);
     cr_expect(facts.band >= 1 && facts.modes == facts.band && facts.tail == 0);
     cr_assert_eq(ves_plan_points(plan, 0, 2, u, v, &at[0][0][0]), VES_OK);

@@ -517,6 +517,12 @@ Test(polish, an_algorithm_that_loses_its_way_is_stopped_and_told)
     }
 }
 
+Test(polish, an_equation_may_be_written_as_two_inequalities)
+{
+    double r = sqrt(0.36 + 1.5) - 0.6;
+    reaches(&problem_low_can, -PI * 1.2 * r * r, "low can");
+}
+
 Test(polish, budget_is_kept_to)
 {
     const long budget[] = {1, 2, 5, 17, 100, 1000};

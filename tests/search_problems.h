@@ -106,6 +106,22 @@ static const given problem_can = {.evaluate = can,
                                   .start = {0.31, 2.27},
                                   .equality = {true}};
 
+/* The same with the area as two inequalities and a lid on the height: h = 1.2, r (h + r) = 3 / 2 */
+static inline ves_status low_can(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    can(data, worker, ask, v);
+    v->constraint[1] = -v->constraint[0];
+    v->constraint[2] = (ask->x[1] - 1.2) / 1.2;
+    if (!gradient_of(ask, v)) return VES_OK;
+    for (int i = 0; i < 2; i++) v->jacobian[2 + i] = -v->jacobian[i];
+    v->jacobian[4] = 0;
+    v->jacobian[5] = 1 / 1.2;
+    return VES_OK;
+}
+
+static const given problem_low_can = {
+    .evaluate = low_can, .n = 2, .m = 3, .lower = {0.1, 0.1}, .upper = {2, 5}, .start = {0.31, 2.27}};
+
 /* Rosenbrock's valley, any n: f* = 0 at (1, ..., 1) */
 static inline ves_status rosenbrock(void *data, int worker, const ves_ask *ask, ves_verdict *v)
 {

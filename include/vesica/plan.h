@@ -44,6 +44,10 @@ void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
  * relative change that was left; NAN when nothing was chosen or nothing could be measured. */
 double ves_plan_grid(const ves_plan *plan, int quadrature[2]);
 
+/* The same choice for the design x, or, where x is NULL or cannot be measured, as above; whatever the problem
+ * says of its grid. *change: what ves_plan_grid returns. Returns VES_OK, or negative for faults. */
+ves_status ves_plan_choose(const ves_problem *problem, const double *x, int quadrature[2], double *change);
+
 /* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation. With
  * VES_WANT_PROOF the candidate is also measured at level 1, must agree within 1 %, must not violate a
  * constraint by 1 % of its size more, and must not cross itself (validity: self_intersection). The arrays of

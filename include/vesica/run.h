@@ -1,6 +1,8 @@
 /* Run: from a problem to its best design and the folder that keeps it, as `vesica run` does: the grid is
- * chosen once, the search of the file runs on `jobs` threads, and the best is measured again on a grid twice
- * as fine. A problem without variables is measured once.
+ * chosen at the start design, the search of the file runs on `jobs` threads, and the best is measured again on
+ * a grid twice as fine. When that changes it by more than 1e-6, the grid is chosen once more, at the best, and
+ * the last polish of the search is repeated there on it, from the best and within the budget; a note tells it,
+ * or, where the file gives the grid, asks for no polish, or no budget is left, what grid to give. A problem without variables is measured once.
  *
  * Numbers have the sign and the units of the file (SI, angles in radians; in a file without units: its own).
  * The same seed gives the same result for any number of jobs. Several runs may go on at once, in threads of
@@ -72,7 +74,7 @@ typedef struct ves_run {
     /* Known when the search begins. */
     bool searched; /* false: measured once */
     uint64_t seed;
-    int jobs, quadrature[2];
+    int jobs, quadrature[2]; /* nodes a patch; of the result when it is there */
     double change; /* relative, that the choice of the quadrature left; NAN: it was given */
     ves_design start;
     const bool *idle;   /* [variables] no effect seen on what is judged; NULL: nobody looked */

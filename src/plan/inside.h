@@ -118,10 +118,6 @@ struct ves_plan {
     bool *equality;
 };
 
-/* quadrature.c: the grid that `auto` chooses, as ves_plan_grid describes it; change: NAN when nothing could
- * be measured. */
-ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], double *change, ves_diag *diag);
-
 /* level.c. face: its sites take the sides of their patches. */
 ves_status ves_plan_level_build(ves_plan *plan, int index);
 void ves_plan_level_face(ves_plan *plan, int index);

@@ -220,7 +220,7 @@ static ves_status grid_settle(const ves_problem *problem, ves_plan_options *opti
     for (int d = 0; d < 2; d++)
         if (q[d] <= 0) q[d] = problem->quadrature[d];
     if (q[0] > 0 && q[1] > 0) return VES_OK;
-    ves_status status = ves_plan_quadrature(problem, chosen, change, NULL); /* it tries many plans: */
+    ves_status status = ves_plan_choose(problem, NULL, chosen, change); /* it tries many plans: */
     for (int d = 0; d < 2; d++)
         if (q[d] <= 0) q[d] = chosen[d];
     return status == VES_MEMORY ? status : VES_OK; /* the one that is used will speak */

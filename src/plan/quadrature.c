@@ -14,11 +14,10 @@ static int rounded(int n)
 }
 
 /* Measures of one design on one grid. */
-static ves_status measures_on(const ves_problem *problem, const double *x, const int grid[2], double *value,
-                              ves_diag *diag)
+static ves_status measures_on(const ves_problem *problem, const double *x, const int grid[2], double *value)
 {
     ves_plan *plan;
-    VES_TRY(ves_plan_create(problem, &(ves_plan_options){.quadrature = {grid[0], grid[1]}}, &plan, diag));
+    VES_TRY(ves_plan_create(problem, &(ves_plan_options){.quadrature = {grid[0], grid[1]}}, &plan, NULL));
     ves_status status = ves_plan_measure_all(plan, x, 0);
     for (int m = 0; m < problem->measures; m++) value[m] = plan->value[m];
     ves_plan_destroy(plan);
@@ -49,16 +48,16 @@ static int resolving(const ves_plan *plan)
 /* Refines one direction until two refinements in a row change nothing: one alone may be fooled by symmetry.
  * left: the last change on the grid chosen. */
 static ves_status refine(const ves_problem *problem, const double *x, int d, int grid[2], double *left,
-                         double *value, ves_diag *diag)
+                         double *value)
 {
     int count = problem->measures, most = d ? V_MOST : U_MOST, trial[2] = {grid[0], grid[1]}, calm = 0;
     double *next = value + count;
     *left = 0;
-    VES_TRY(measures_on(problem, x, trial, value, diag));
+    VES_TRY(measures_on(problem, x, trial, value));
     while (calm < 2) {
         int finer = rounded(trial[d] + trial[d] / 2);
         trial[d] = finer;
-        VES_TRY(measures_on(problem, x, trial, next, diag));
+        VES_TRY(measures_on(problem, x, trial, next));
         double change = change_between(problem, value, next);
         if (!calm) *left = change;
         calm = change <= ENOUGH ? calm + 1 : 0;
@@ -70,7 +69,7 @@ static ves_status refine(const ves_problem *problem, const double *x, int d, int
     return VES_OK;
 }
 
-ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], double *change, ves_diag *diag)
+ves_status ves_plan_choose(const ves_problem *problem, const double *at, int quadrature[2], double *change)
 {
     ves_arena arena = {0};
     double *value = ves_arena_doubles(&arena, (size_t)(2 * problem->measures)), left[2] = {0, 0};
@@ -79,17 +78,17 @@ ves_status ves_plan_quadrature(const ves_problem *problem, int quadrature[2], do
     int grid[2] = {U_LEAST, 2 * V_LEAST};
     ves_status status = value && x ? VES_OK : VES_MEMORY;
     if (status == VES_OK)
-        status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, diag);
+        status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, NULL);
     if (status == VES_OK) grid[1] = resolving(plan);
     if (status == VES_OK && grid[1] > 2 * V_LEAST) { /* the search for a design must see the modes too */
         ves_plan_destroy(plan);
-        status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, diag);
+        status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, NULL);
     }
-    if (status == VES_OK) status = plan->measured;
+    bool there = status == VES_OK && at && ves_plan_measure_all(plan, at, 0) == VES_OK;
+    if (status == VES_OK && !there) status = plan->measured;
     if (status == VES_OK && problem->variables)
-        memcpy(x, plan->reference, sizeof *x * (size_t)problem->variables);
-    for (int d = 0; d < 2 && status == VES_OK; d++)
-        status = refine(problem, x, d, grid, &left[d], value, diag);
+        memcpy(x, there ? at : plan->reference, sizeof *x * (size_t)problem->variables);
+    for (int d = 0; d < 2 && status == VES_OK; d++) status = refine(problem, x, d, grid, &left[d], value);
     ves_plan_destroy(plan);
     ves_arena_destroy(&arena);
     quadrature[0] = grid[0], quadrature[1] = grid[1];

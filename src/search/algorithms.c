@@ -6,9 +6,13 @@
 
 static const ves_algorithm list[] = {
     {"slsqp", "sequential quadratic programming (Kraft 1988); the default with gradients", true, true, true},
-    {"mma", "method of moving asymptotes (Svanberg 2002); equalities through auglag", true, true, false},
-    {"ccsa", "conservative convex separable approximation (Svanberg 2002); equalities through auglag", true,
+    {"mma",
+     "method of moving asymptotes (Svanberg 2002); equalities and opposite inequalities through auglag", true,
      true, false},
+    {"ccsa",
+     "conservative convex separable approximation (Svanberg 2002); equalities and opposite inequalities "
+     "through auglag",
+     true, true, false},
     {"cobyla", "linear models (Powell 1994); the default with constraints and without gradients", false, true,
      true},
     {"bobyqa",
@@ -59,6 +63,7 @@ ves_recipe ves_recipe_find(const char *name, int n, bool gradients)
         recipe.inequalities = recipe.equalities = true;
     }
     recipe.id = fitting(recipe.id, n);
+    recipe.dual = recipe.id == NLOPT_LD_MMA || recipe.id == NLOPT_LD_CCSAQ;
     return recipe;
 }
 

@@ -10,6 +10,7 @@ typedef struct ves_recipe {
     const char *name;
     nlopt_algorithm id;
     bool gradient;
+    bool dual;                     /* each candidate comes from a dual problem that NLopt solves by itself */
     bool inequalities, equalities; /* go into an augmented Lagrangian: the algorithm does not take them */
 } ves_recipe;
 

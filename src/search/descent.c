@@ -7,25 +7,70 @@
  * as they are. What NLopt returns is not looked at but for the reason: the best is what we have seen
  * ourselves. */
 
-enum { RESTARTS = 5, HANG = 20, HANG_LEAST = 10000 };
+enum { RESTARTS = 5 };
+
+/* NLopt's own loops: questions in a row for one point (they come by threes, and a model that is stiffened ten
+ * times each until it yields passes 300); steps for one dual problem, where NLopt itself allows ten times
+ * that. */
+enum { HANG = 2000, DUAL_STEPS = 10000 };
 
 static const double difference = 3e-8; /* step in u: about sqrt(rounding) */
 static const double squeezed =
     1e-6; /* in u: a line search that ends so near to a failed candidate ran into it */
 
-static bool index_create(ves_descent *d)
+/* Is constraint k the negative of constraint j, with all its slopes? */
+static bool opposite(const ves_verdict *v, int n, int j, int k)
 {
-    ves_session *session = d->session;
-    d->inequality = ves_arena_take(&session->arena, (size_t)session->m, sizeof(int));
-    d->equality = ves_arena_take(&session->arena, (size_t)session->m, sizeof(int));
-    if (!d->inequality || !d->equality) return false;
-    for (int j = 0; j < session->m; j++) {
-        if (ves_session_equality(session, j))
+    const double *a = v->jacobian + (size_t)j * (size_t)n, *b = v->jacobian + (size_t)k * (size_t)n;
+    bool sloped = false;
+    for (int i = 0; i < n; i++) {
+        if (a[i] != -b[i]) return false;
+        sloped = sloped || a[i] != 0;
+    }
+    return sloped && v->constraint[j] == -v->constraint[k];
+}
+
+/* A dual problem has no bound where the constraints leave no room, and two halves of an equation leave none.
+ */
+static void join(ves_descent *d)
+{
+    for (int j = 0; j < d->session->m; j++)
+        for (int k = j + 1; d->hold[j] == VES_HOLD_NLOPT && k < d->session->m; k++)
+            if (d->hold[k] == VES_HOLD_NLOPT && opposite(&d->last, d->session->n, j, k)) {
+                d->hold[j] = VES_HOLD_EQUAL;
+                d->hold[k] = VES_HOLD_TWIN;
+            }
+}
+
+/* Decides who sees to each constraint; joins, when the last candidate tells, opposite ones. */
+static void share(ves_descent *d, bool told)
+{
+    for (int j = 0; j < d->session->m; j++) {
+        bool equal = ves_session_equality(d->session, j);
+        bool held = equal ? d->recipe.equalities : d->recipe.inequalities;
+        d->hold[j] = !held ? VES_HOLD_NLOPT : equal ? VES_HOLD_EQUAL : VES_HOLD_BELOW;
+    }
+    if (d->recipe.dual && told) join(d);
+    d->inequalities = d->equalities = 0;
+    d->wrapped = false;
+    for (int j = 0; j < d->session->m; j++) {
+        if (d->hold[j] != VES_HOLD_NLOPT)
+            d->wrapped = true;
+        else if (ves_session_equality(d->session, j))
             d->equality[d->equalities++] = j;
         else
             d->inequality[d->inequalities++] = j;
     }
-    return true;
+}
+
+static bool share_create(ves_descent *d)
+{
+    ves_arena *arena = &d->session->arena;
+    size_t m = (size_t)d->session->m;
+    d->inequality = ves_arena_take(arena, m, sizeof(int));
+    d->equality = ves_arena_take(arena, m, sizeof(int));
+    d->hold = ves_arena_take(arena, m, sizeof *d->hold);
+    return d->inequality && d->equality && d->hold;
 }
 
 bool ves_descent_create(ves_descent *d, ves_session *session, int member, const ves_polish *options,
@@ -35,7 +80,7 @@ bool ves_descent_create(ves_descent *d, ves_session *session, int member, const 
     ves_arena *arena = &session->arena;
     *d = (ves_descent){.session = session, .options = options, .budget = budget};
     ves_asker_init(&d->asker, session, member);
-    if (!index_create(d)) return false;
+    if (!share_create(d)) return false;
     d->recipe = ves_recipe_find(options->algorithm, session->n, session->problem->gradients);
     double **rows[] = {&d->range,        &d->route,        &d->u, &d->x, &d->shifted, &d->from, &d->broken,
                        &d->first_mended, &d->last.gradient};
@@ -68,7 +113,7 @@ static ves_status lose(ves_descent *d, const char *sentence)
 {
     d->lost = sentence;
     d->asked = false;
-    d->calls = 0;
+    d->repeats = 0;
     if (d->opt) nlopt_force_stop(d->opt);
     return VES_NO_NUMBER;
 }
@@ -196,11 +241,12 @@ static ves_status judge(ves_descent *d, bool slopes)
 ves_status ves_descent_look(ves_descent *d, const double *u, bool slopes)
 {
     size_t bytes = (size_t)d->session->n * sizeof *u;
-    d->calls++;
     if (d->asked && !memcmp(u, d->u, bytes) && (d->sloped || !slopes)) {
-        if (d->calls <= HANG * d->budget + HANG_LEAST) return VES_OK;
+        if (ves_session_over(d->session)) return halt(d, VES_INTERRUPTED);
+        if (++d->repeats <= HANG) return VES_OK;
         return lose(d, "the algorithm lost its way: it asked for the same point again and again");
     }
+    d->repeats = 0;
     long cost = slopes && !d->session->problem->gradients ? 1 + (long)d->session->n : 1;
     if (d->budget - d->used < cost) {
         d->spent = true;
@@ -300,10 +346,11 @@ static bool set_up(ves_descent *d, double step, double factor)
     if (!d->recipe.gradient) ok = ok && nlopt_set_initial_step1(d->opt, fmin(step, 0.4 * d->reach)) > 0;
     double *limit = d->shifted_constraint; /* spare here, and NLopt copies */
     for (int j = 0; j < d->session->m; j++) limit[j] = d->session->tight;
-    if (d->inequalities && !d->recipe.inequalities)
+    if (d->recipe.dual) ok = ok && nlopt_set_param(d->opt, "dual_maxeval", DUAL_STEPS) > 0;
+    if (d->inequalities)
         ok = ok &&
              nlopt_add_inequality_mconstraint(d->opt, (unsigned)d->inequalities, inequalities, d, limit) > 0;
-    if (d->equalities && !d->recipe.equalities)
+    if (d->equalities)
         ok = ok && nlopt_add_equality_mconstraint(d->opt, (unsigned)d->equalities, equalities, d, limit) > 0;
     return ok;
 }
@@ -337,6 +384,7 @@ static ves_status rescale(ves_descent *d, const double *u, bool first)
 {
     bool slopes = d->recipe.gradient || (first && d->budget - d->used > 10L * d->session->n);
     VES_TRY(ves_descent_look(d, u, slopes));
+    if (first) share(d, slopes && d->last.status == VES_OK);
     double size = fmax(fabs(d->last.value), d->session->spread);
     double most = steepest(d);
     if (first) {
@@ -363,8 +411,7 @@ ves_status ves_descent_minimise(ves_descent *d, double step, double factor)
 
 static ves_status once(ves_descent *d, double step)
 {
-    bool wrapped = (d->inequalities && d->recipe.inequalities) || (d->equalities && d->recipe.equalities);
-    return wrapped ? ves_lagrange_run(d, step) : ves_descent_minimise(d, step, 1);
+    return d->wrapped ? ves_lagrange_run(d, step) : ves_descent_minimise(d, step, 1);
 }
 
 static bool progressed(const ves_descent *d, const ves_verdict *before, const ves_verdict *after)

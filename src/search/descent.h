@@ -6,24 +6,30 @@
 #include "search/algorithms.h"
 #include "search/session.h"
 
+/* Who sees to a constraint: NLopt, the augmented Lagrangian as an inequality or an equation, or, where it is
+ * the other half of an equation written as two inequalities, nobody. */
+typedef enum ves_hold { VES_HOLD_NLOPT, VES_HOLD_BELOW, VES_HOLD_EQUAL, VES_HOLD_TWIN } ves_hold;
+
 typedef struct ves_descent {
     ves_session *session;
     ves_asker asker;
     const ves_polish *options;
     ves_recipe recipe;
     int inequalities, equalities;
-    int *inequality, *equality; /* indices of the constraints */
+    int *inequality, *equality; /* indices of the constraints that NLopt sees */
+    ves_hold *hold;             /* [m] */
+    bool wrapped;               /* some constraint is held by the Lagrangian */
     double *range;              /* [n] upper - lower */
 
-    long budget, used, calls; /* evaluations of this task; questions of NLopt, cached ones too */
-    nlopt_opt opt;            /* while it runs */
-    nlopt_result code;        /* of the last run */
-    bool halted;              /* budget or interrupt: NLopt has been told to stop */
-    bool spent;               /* the budget allows no further candidate */
-    const char *lost;         /* a sentence: NLopt was stopped because it makes no sense any more; or NULL */
-    bool broke, beside;       /* a candidate of the last run failed; its last one, or one beside the best */
-    double *broken;           /* [n] the last that failed */
-    double reach;             /* how far from where it began a run may go, in the unit box */
+    long budget, used, repeats; /* evaluations of this task; questions for the same point in a row */
+    nlopt_opt opt;              /* while it runs */
+    nlopt_result code;          /* of the last run */
+    bool halted;                /* budget or interrupt: NLopt has been told to stop */
+    bool spent;                 /* the budget allows no further candidate */
+    const char *lost;   /* a sentence: NLopt was stopped because it makes no sense any more; or NULL */
+    bool broke, beside; /* a candidate of the last run failed; its last one, or one beside the best */
+    double *broken;     /* [n] the last that failed */
+    double reach;       /* how far from where it began a run may go, in the unit box */
 
     double *route; /* [n] NLopt's own x */
     double *u, *x; /* [n] the last candidate */

@@ -15,14 +15,14 @@ static const double first_penalty = 10, most_penalty = 1e5, faster = 10, enough 
 
 static bool held(const ves_descent *d, int j)
 {
-    return ves_session_equality(d->session, j) ? d->recipe.equalities : d->recipe.inequalities;
+    return d->hold[j] == VES_HOLD_BELOW || d->hold[j] == VES_HOLD_EQUAL;
 }
 
 /* What the constraint pulls with: lambda + r c, not negative for an inequality. */
 static double pull(const ves_descent *d, int j)
 {
     double t = d->multiplier[j] + d->penalty * d->last.constraint[j];
-    return ves_session_equality(d->session, j) || t > 0 ? t : 0;
+    return d->hold[j] == VES_HOLD_EQUAL || t > 0 ? t : 0;
 }
 
 double ves_lagrange_value(const ves_descent *d)

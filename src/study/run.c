@@ -8,6 +8,7 @@
 #include "study/folder.h"
 #include "study/idle.h"
 #include "study/keep.h"
+#include "study/settle.h"
 #include "study/trace.h"
 
 enum { JOBS_MOST = 256, STATUS_KINDS = 64, SENTENCE = 200 };
@@ -28,6 +29,8 @@ typedef struct study {
     ves_tracer tracer;
     double wall, cpu, mark; /* clocks: the beginning; the stage's beginning */
     int stage;
+    int stages_before; /* of searches that are over, and their evaluations */
+    long evaluations_before;
     long failed[STATUS_KINDS]; /* candidates that could not be measured, by status */
     ves_status files;          /* the first file that could not be written */
 } study;
@@ -109,18 +112,32 @@ static void settle(study *s)
         strftime(run->times.started, sizeof run->times.started, "%Y-%m-%dT%H:%M:%SZ", &utc);
 }
 
+static void plans_destroy(ves_plan **plan, int count)
+{
+    for (int k = 0; plan && k < count; k++) ves_plan_destroy(plan[k]);
+}
+
+/* As many as jobs; the others share the grid of the first, which speaks for all. */
+static ves_status plans_fill(study *s, const ves_plan_options *options, ves_plan **plan, ves_diag *diag)
+{
+    int grid[2];
+    VES_TRY(ves_plan_create(s->problem, options, &plan[0], diag));
+    ves_plan_grid(plan[0], grid);
+    const ves_plan_options same = {{grid[0], grid[1]}};
+    for (int k = 1; k < s->run->jobs; k++) {
+        ves_status status = ves_plan_create(s->problem, &same, &plan[k], NULL);
+        if (status != VES_OK) return complain(s->diag, status);
+    }
+    return VES_OK;
+}
+
 static ves_status plans_make(study *s)
 {
     ves_run *run = s->run;
     s->plan = ves_arena_take(s->arena, (size_t)run->jobs, sizeof *s->plan);
     if (!s->plan) return complain(s->diag, VES_MEMORY);
-    VES_TRY(ves_plan_create(s->problem, NULL, &s->plan[0], s->diag));
+    VES_TRY(plans_fill(s, NULL, s->plan, s->diag));
     run->change = ves_plan_grid(s->plan[0], run->quadrature);
-    const ves_plan_options same = {{run->quadrature[0], run->quadrature[1]}};
-    for (int k = 1; k < run->jobs; k++) { /* the first has spoken */
-        ves_status status = ves_plan_create(s->problem, &same, &s->plan[k], NULL);
-        if (status != VES_OK) return complain(s->diag, status);
-    }
     return VES_OK;
 }
 
@@ -213,15 +230,18 @@ static void stage_enter(study *s, int index)
     if (index >= t->stages) t->stages = index + 1;
 }
 
-static void hear_record(void *data, const ves_record *record)
+static void hear_record(void *data, const ves_record *heard)
 {
     study *s = data;
-    int kind = (int)record->status;
-    if (record->stage != s->stage && record->stage >= 0 && record->stage < VES_STAGES)
-        stage_enter(s, record->stage);
+    ves_record record = *heard;
+    int kind = (int)record.status;
+    record.evaluation += s->evaluations_before;
+    record.stage += s->stages_before;
+    if (record.stage >= VES_STAGES) record.stage = VES_STAGES - 1;
+    if (record.stage != s->stage && record.stage >= 0) stage_enter(s, record.stage);
     s->run->times.stage[s->stage].evaluations++;
     if (kind > 0 && kind < STATUS_KINDS) s->failed[kind]++;
-    ves_tracer_write(&s->tracer, record);
+    ves_tracer_write(&s->tracer, &record);
 }
 
 static void hear_progress(void *data, const ves_progress *progress)
@@ -229,8 +249,11 @@ static void hear_progress(void *data, const ves_progress *progress)
     study *s = data;
     ves_progress shown = *progress;
     if (s->problem->maximize) shown.value = -shown.value;
-    if (progress->stage >= 0 && progress->stage < VES_STAGES && progress->stage_name)
-        snprintf(s->run->times.stage[progress->stage].name, VES_RUN_NAME, "%s", progress->stage_name);
+    shown.stage += s->stages_before;
+    shown.evaluations += s->evaluations_before;
+    shown.budget += s->evaluations_before;
+    if (shown.stage >= 0 && shown.stage < VES_STAGES && shown.stage_name)
+        snprintf(s->run->times.stage[shown.stage].name, VES_RUN_NAME, "%s", shown.stage_name);
     if (s->hooks->progress) s->hooks->progress(s->hooks->data, &shown);
 }
 
@@ -304,9 +327,11 @@ static ves_status counts_take(study *s, const ves_search_result *r)
     ves_run_failure *failure = ves_arena_take(s->arena, STATUS_KINDS, sizeof *failure);
     if (!temperature || !failure) return VES_MEMORY;
     for (int k = 0; k < r->temperatures; k++) temperature[k] = r->temperature[k];
+    run->failures = 0;
     for (int k = 0; k < STATUS_KINDS; k++)
         if (s->failed[k]) failure[run->failures++] = (ves_run_failure){(ves_status)k, s->failed[k]};
     run->failure = failure;
+    if (!r->temperatures) return VES_OK;
     run->temperature = temperature;
     run->temperatures = r->temperatures;
     return VES_OK;
@@ -317,8 +342,8 @@ static ves_status result_take(study *s, const ves_search_result *r)
     ves_run *run = s->run;
     run->ending = r->ending;
     run->any = r->any;
-    run->evaluations = r->evaluations;
-    run->gradients = r->gradients;
+    run->evaluations += r->evaluations;
+    run->gradients += r->gradients;
     if (words_take(s, r) != VES_OK || counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK)
         return complain(s->diag, VES_MEMORY);
     double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
@@ -331,21 +356,83 @@ static ves_status result_take(study *s, const ves_search_result *r)
     return VES_OK;
 }
 
-static ves_status search(study *s)
+/* start: NULL for the file's own. */
+static ves_status search_with(study *s, const ves_search_options *options, const double *start)
 {
-    ves_search_problem problem = ves_plan_search(s->plan, s->run->jobs);
+    ves_run *run = s->run;
+    ves_search_problem problem = ves_plan_search(s->plan, run->jobs);
     ves_search_result *result = NULL;
     ves_search_hooks hooks = {hear_progress, hear_record, hear_stopped, s};
-    stage_names(s);
+    if (start) problem.start = start;
+    s->stages_before = run->times.stages;
+    s->evaluations_before = run->evaluations;
     s->stage = -1;
     double begun = ves_study_clock();
-    ves_status status = ves_search_run(&problem, &s->search, &hooks, &result);
+    ves_status status = ves_search_run(&problem, options, &hooks, &result);
     stage_enter(s, s->stage);
-    s->run->times.search = ves_study_clock() - begun;
+    run->times.search += ves_study_clock() - begun;
     if (!result) return complain(s->diag, status);
     status = result_take(s, result);
     ves_search_result_destroy(result);
     return status;
+}
+
+/* The best once more, polished on the finer grid; what is reported is measured there. */
+static ves_status search_finer(study *s, const ves_search_options *again, const int grid[2], double change)
+{
+    ves_run *run = s->run;
+    const ves_optimum *old = run->optimum;
+    const int count = run->optima;
+    const ves_plan_options finer = {{grid[0], grid[1]}};
+    ves_plan **coarse = s->plan, **plan = ves_arena_take(s->arena, (size_t)run->jobs, sizeof *plan);
+    if (!plan) return complain(s->diag, VES_MEMORY);
+    s->plan = plan;
+    ves_status status = plans_fill(s, &finer, plan, NULL);
+    plans_destroy(coarse, run->jobs);
+    if (status != VES_OK) return complain(s->diag, status);
+    run->quadrature[0] = grid[0], run->quadrature[1] = grid[1];
+    run->change = change;
+    VES_TRY(measure(s, NULL, 0, &run->start));
+    VES_TRY(search_with(s, again, run->best.x));
+    status = ves_settle_optima(s->plan[0], old, count, s->arena, run);
+    return status == VES_OK ? VES_OK : complain(s->diag, status);
+}
+
+/* When the grid does not settle the best: another one, or the advice to give one. */
+static ves_status settle_best(study *s)
+{
+    ves_run *run = s->run;
+    const int *q = run->quadrature;
+    const double off = ves_design_change(s->problem, &run->best, &run->finer);
+    if (!(off > UNSETTLED)) return VES_OK;
+    int grid[2];
+    double change;
+    char text[SENTENCE];
+    ves_search_options again;
+    ves_status status = ves_settle_grid(run, grid, &change);
+    if (status != VES_OK) return complain(s->diag, status);
+    if (grid[0] == q[0] && grid[1] == q[1]) return VES_OK;
+    bool chosen = s->problem->quadrature[0] == 0 && s->problem->quadrature[1] == 0;
+    if (chosen && run->ending != VES_ENDED_STOPPED && ves_settle_search(&s->search, run, &again)) {
+        snprintf(text, sizeof text,
+                 "%d x %d nodes a patch, chosen at the start design, left the best unsettled by %.1e: "
+                 "polished once "
+                 "more on %d x %d, chosen at the best",
+                 q[0], q[1], off, grid[0], grid[1]);
+        VES_TRY(keep_note(s, text));
+        return search_finer(s, &again, grid, change);
+    }
+    snprintf(text, sizeof text,
+             "%d x %d nodes a patch leave the result unsettled by %.1e: give quadrature: {u: %d, v: %d}",
+             q[0], q[1], off, grid[0], grid[1]);
+    return keep_note(s, text);
+}
+
+static ves_status search(study *s)
+{
+    stage_names(s);
+    VES_TRY(search_with(s, &s->search, NULL));
+    return s->run->any ? settle_best(s) : VES_OK;
 }
 
 /* --- without a search --- */
@@ -444,12 +531,6 @@ static ves_status work(study *s)
     return VES_OK;
 }
 
-static void plans_destroy(study *s)
-{
-    for (int k = 0; s->plan && k < s->run->jobs; k++) ves_plan_destroy(s->plan[k]);
-    ves_tracer_end(&s->tracer);
-}
-
 ves_status ves_run_create(const ves_problem *problem, const ves_run_options *options,
                           const ves_run_hooks *hooks, ves_run **out, ves_diag *diag)
 {
@@ -468,7 +549,8 @@ ves_status ves_run_create(const ves_problem *problem, const ves_run_options *opt
     s.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
     settle(&s);
     ves_status status = work(&s);
-    plans_destroy(&s);
+    plans_destroy(s.plan, s.run->jobs);
+    ves_tracer_end(&s.tracer);
     if (status != VES_OK) {
         ves_run_destroy(&box->run);
         return status;

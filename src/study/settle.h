@@ -1,0 +1,22 @@
+/* A grid that is chosen at the start design may be too coarse where the search ends: what it takes to go on
+ * there on a finer one. */
+#ifndef VES_STUDY_SETTLE_H
+#define VES_STUDY_SETTLE_H
+
+#include "base/arena.h"
+#include "vesica/run.h"
+
+/* The grid that the best of a run asks for, nowhere coarser than its own. change: what the choice left. Returns
+ * VES_OK or a fault. */
+ves_status ves_settle_grid(const ves_run *run, int grid[2], double *change);
+
+/* The last polish of a search, alone, with what is left of its budget. false: it has none, or there is not
+ * enough left for one. */
+bool ves_settle_search(const ves_search_options *search, const ves_run *run, ves_search_options *again);
+
+/* Puts optima of a coarser grid, but for the first, behind those of the run, which took the first's place: with
+ * their values on the plan's grid, best first. What cannot be measured there is left out. */
+ves_status ves_settle_optima(ves_plan *plan, const ves_optimum *old, int count, ves_arena *arena,
+                             ves_run *run);
+
+#endif
