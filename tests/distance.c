@@ -4,35 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "bed.h"
 #include "problem/problem.h"
 #include "vesica/plan.h"
 
 /* Rounding of some hundred terms. */
 static const double EXACT = 1e-12;
-
-typedef struct bed {
-    ves_problem *problem;
-    ves_plan *plan;
-    ves_diag *diag;
-} bed;
-
-static bed bed_make(const char *text, int nu, int nv)
-{
-    bed b = {.diag = ves_diag_create()};
-    char message[2000] = "";
-    ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), NULL, &b.problem, b.diag);
-    if (status == VES_OK) status = ves_plan_create(b.problem, &(ves_plan_options){{nu, nv}}, &b.plan, b.diag);
-    if (ves_diag_count(b.diag)) ves_diag_text(b.diag, 0, message, sizeof message);
-    cr_assert_eq(status, VES_OK, "%s", message);
-    return b;
-}
-
-static void bed_clear(bed *b)
-{
-    ves_plan_destroy(b->plan);
-    ves_problem_destroy(b->problem);
-    ves_diag_destroy(b->diag);
-}
 
 static double evaluated(const bed *b, const double *x, double *gradient)
 {
@@ -87,7 +64,7 @@ Test(distance, a_place_on_its_own_end_curve_is_no_distance_away)
                      0.917 * v,
                      v % 2 ? "measures: {d: {distance: {from: tip, to: high}}}\nminimize: d\n"
                            : "measures: {d: {distance: {from: low, to: tip}}}\nminimize: d\n");
-            bed b = bed_make(text, GRID[g][0], GRID[g][1]);
+            bed b = bed_with(text, NULL, GRID[g][0], GRID[g][1]);
             for (int k = 0; k < 4; k++) {
                 double x[3] = {pow(10, k), 0.8 + 0.1 * k, 0.2 * k}, gradient[3];
                 near(evaluated(&b, x, gradient), 0, EXACT, "distance");
@@ -114,7 +91,7 @@ Test(distance, gradients_agree_with_differences)
                      "%splaces: {tip: {patch: wall, u: 0.4, v: 1.1}, far: {patch: wall, u: 1, v: 3}}\n"
                      "measures: {d: {distance: {%s}}}\n%s",
                      TUBE, pair[p], rest[k]);
-            bed b = bed_make(text, 16, 32);
+            bed b = bed_with(text, NULL, 16, 32);
             check_gradient(&b, x, 3);
             bed_clear(&b);
         }
@@ -124,7 +101,7 @@ Test(distance, gradients_agree_with_differences)
 Test(distance, a_curve_of_many_modes_is_seen_whole)
 {
     for (int g = 0; g < 4; g++) {
-        bed b = bed_make("vesica: 1\nvariables: {r: [0.1, 1, 3], s: [-4, 0.1, 4]}\n"
+        bed b = bed_with("vesica: 1\nvariables: {r: [0.1, 1, 3], s: [-4, 0.1, 4]}\n"
                          "curves:\n"
                          "  o: {point: [0, 0, 2]}\n"
                          "  p: {circle: {radius: r}}\n"
@@ -132,7 +109,7 @@ Test(distance, a_curve_of_many_modes_is_seen_whole)
                          "patches: {w: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: o}, {u: 1, "
                          "position: p}]}}\n"
                          "measures: {d: {distance: {from: o, to: q}}}\nminimize: d\n",
-                         GRID[g][0], GRID[g][1]);
+                         NULL, GRID[g][0], GRID[g][1]);
         for (int k = 0; k < 20; k++) {
             double x[2] = {0.7 + 0.031 * k, -0.5 + 0.071 * k};
             near(evaluated(&b, x, NULL), hypot(1.95, x[0]), EXACT, "crest");
@@ -146,14 +123,14 @@ Test(distance, a_curve_of_many_modes_is_seen_whole)
 Test(distance, the_value_does_not_jump_where_one_valley_overtakes_another)
 {
     static const double p[] = {-1e-1, -1e-3, -1e-5, -1e-9, 0, 1e-9, 1e-5, 1e-3, 1e-1};
-    bed b = bed_make("vesica: 1\nvariables: {p: [-1, 0, 1], s: [-4, 0.1, 4]}\n"
+    bed b = bed_with("vesica: 1\nvariables: {p: [-1, 0, 1], s: [-4, 0.1, 4]}\n"
                      "curves:\n"
                      "  ring: {ellipse: {radii: [1, 2]}, apply: [{shift: s}]}\n"
                      "  top: {point: [p, 0, 0.5]}\n"
                      "patches: {w: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: ring}, {u: 1, "
                      "position: top}]}}\n"
                      "measures: {d: {distance: {from: top, to: ring}}}\nminimize: d\n",
-                     8, 8);
+                     NULL, 8, 8);
     for (int k = 0; k < 9; k++)
         for (int n = 0; n < 30; n++) {
             double x[2] = {p[k], -0.4 + 0.031 * n};

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "bed.h"
 #include "problem/problem.h"
 #include "vesica/plan.h"
 
@@ -14,34 +15,9 @@ static const double PI = 3.14159265358979323846;
 /* Rounding of some hundred terms; a summit is missed by the fourth power of 1e-4 times a cell. */
 static const double EXACT = 1e-12;
 
-typedef struct bed {
-    ves_problem *problem;
-    ves_plan *plan;
-    ves_diag *diag;
-} bed;
-
-static bed bed_make_with(const char *text, const ves_measure *const *plugin, int nu, int nv)
-{
-    bed b = {.diag = ves_diag_create()};
-    char message[2000] = "";
-    ves_read_options options = {.plugin = plugin};
-    ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), &options, &b.problem, b.diag);
-    if (status == VES_OK) status = ves_plan_create(b.problem, &(ves_plan_options){{nu, nv}}, &b.plan, b.diag);
-    if (ves_diag_count(b.diag)) ves_diag_text(b.diag, 0, message, sizeof message);
-    cr_assert_eq(status, VES_OK, "%s", message);
-    return b;
-}
-
 static bed bed_make(const char *text, int nu, int nv)
 {
-    return bed_make_with(text, NULL, nu, nv);
-}
-
-static void bed_clear(bed *b)
-{
-    ves_plan_destroy(b->plan);
-    ves_problem_destroy(b->problem);
-    ves_diag_destroy(b->diag);
+    return bed_with(text, NULL, nu, nv);
 }
 
 static double measured(const bed *b, const double *x, int level, const char *name)
@@ -292,7 +268,7 @@ static double value_at(const bed *b, const double *x)
 static void check_gradient(const char *text, const ves_measure *const *plugin, const double *x, int n)
 {
     double gradient[8], constraint[4], jacobian[32], h = 1e-3;
-    bed b = bed_make_with(text, plugin, 16, 32);
+    bed b = bed_with(text, plugin, 16, 32);
     ves_verdict verdict = {.constraint = constraint, .gradient = gradient, .jacobian = jacobian};
     ves_ask ask = {.x = x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE | VES_WANT_GRADIENT};
     cr_assert_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_OK);
@@ -420,7 +396,7 @@ Test(extreme, a_measure_from_outside_looks_where_it_wants)
 {
     static const double x[5] = {0.8, 0.3, 1.2, 1.3, 1.5};
     double u[2] = {0.31, 0.9}, v[2] = {4.1, 0.2}, one = 1, where = 0.7, out[36], top[18], f[6][3];
-    bed b = bed_make_with(TWO "minimize: peep\n", PEEPERS, 8, 8);
+    bed b = bed_with(TWO "minimize: peep\n", PEEPERS, 8, 8);
     double got = measured(&b, x, 0, "peep");
     cr_assert_eq(ves_plan_points(b.plan, 0, 2, u, v, out), VES_OK);
     cr_assert_eq(ves_plan_points(b.plan, 1, 1, &one, &where, top), VES_OK);

@@ -5,31 +5,8 @@
 #include <string.h>
 
 #include "base/random.h"
+#include "bed.h"
 #include "plan/inside.h"
-
-typedef struct bed {
-    ves_problem *problem;
-    ves_plan *plan;
-    ves_diag *diag;
-} bed;
-
-static bed bed_make(const char *text, int nu, int nv)
-{
-    bed b = {.diag = ves_diag_create()};
-    char message[2000] = "";
-    ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), NULL, &b.problem, b.diag);
-    if (status == VES_OK) status = ves_plan_create(b.problem, &(ves_plan_options){{nu, nv}}, &b.plan, b.diag);
-    if (ves_diag_count(b.diag)) ves_diag_text(b.diag, 0, message, sizeof message);
-    cr_assert_eq(status, VES_OK, "%s", message);
-    return b;
-}
-
-static void bed_clear(bed *b)
-{
-    ves_plan_destroy(b->plan);
-    ves_problem_destroy(b->problem);
-    ves_diag_destroy(b->diag);
-}
 
 static double draw(ves_random *random, double low, double high)
 {
@@ -119,12 +96,12 @@ Test(extreme_coarse, a_peak_is_no_higher_than_it_is)
 {
     const double y[3] = {0, 1, 0};
     for (int g = 0; g < GRIDS; g++) {
-        bed b = bed_make("vesica: 1\n"
+        bed b = bed_with("vesica: 1\n"
                          "variables: {q: [1, 100, 1e9], c: [0.01, 0.52, 0.99], w: [0.1, 3, 6]}\n"
                          "patches: {p: {surface: {formula: [\"u\", \"exp(-q*((u - c)^2 + (v - w)^2/40))\", "
                          "\"v\"]}, periodic: false}}\n"
                          "validity: {jacobian: any}\nminimize: height\n",
-                         GRID[g][0], GRID[g][1]);
+                         NULL, GRID[g][0], GRID[g][1]);
         for (uint64_t k = 0; k < 60; k++) {
             ves_random random = {.seed = 1000 * (uint64_t)g + k + 1};
             double x[3] = {pow(10, draw(&random, 0, 4)), draw(&random, 0.05, 0.95), draw(&random, 0.2, 6)};
@@ -142,10 +119,10 @@ Test(extreme_coarse, a_peak_is_no_higher_than_it_is)
 Test(extreme_coarse, a_ridge_is_no_higher_than_it_is)
 {
     static const double q[] = {100, 500, 2000, 4000, 20000};
-    bed b = bed_make("vesica: 1\nvariables: {q: [1, 100, 1e9], c: [0, 0.52, 1]}\n"
+    bed b = bed_with("vesica: 1\nvariables: {q: [1, 100, 1e9], c: [0, 0.52, 1]}\n"
                      "patches: {p: {surface: {formula: [\"u\", \"exp(-q*(u - c)^2)\", \"v\"]}, periodic: "
                      "false}}\nvalidity: {jacobian: any}\nminimize: height\n",
-                     16, 16);
+                     NULL, 16, 16);
     for (int k = 0; k < 5; k++) {
         double x[2] = {q[k], 0.52}, value = measured(&b, x, 0);
         cr_expect(value <= 1 && value > 0.5, "q = %g: %.16g", q[k], value);
@@ -174,7 +151,7 @@ Test(extreme_coarse, walls_that_fall_away_from_their_rims)
             char text[2000] = RIMS "measures: {E: {extent: {along: [0.36, -0.48, 0.8]}}}\nminimize: ";
             if (m < 3) strcpy(text, RIMS "minimize: ");
             strcat(text, what[m]);
-            bed b = bed_make(text, GRID[g][0], GRID[g][1]);
+            bed b = bed_with(text, NULL, GRID[g][0], GRID[g][1]);
             for (uint64_t k = 0; k < 12; k++) {
                 ves_random random = {.seed = 1000 * (uint64_t)g + k + 1};
                 double x[4] = {pow(10, draw(&random, 0, 3)), draw(&random, 0.3, 2), draw(&random, 0.1, 1),
@@ -192,7 +169,7 @@ Test(extreme_coarse, the_width_of_a_tube_is_that_of_its_rims)
 {
     static const double a[] = {1, 30, 100, 300, 500, 700, 1000};
     for (int g = 0; g < GRIDS; g++) {
-        bed b = bed_make(RIMS "minimize: height\n", GRID[g][0], GRID[g][1]);
+        bed b = bed_with(RIMS "minimize: height\n", NULL, GRID[g][0], GRID[g][1]);
         for (int k = 0; k < 7; k++) {
             double x[4] = {a[k], 1, 0, 1}, value = measured(&b, x, 0);
             cr_expect(fabs(value - 2) < 1e-12, "a = %g: %.16g", a[k], value);

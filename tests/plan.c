@@ -6,43 +6,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bed.h"
 #include "problem/problem.h"
 #include "surface/figure.h"
 #include "vesica/plan.h"
 
 static const double PI = 3.14159265358979323846;
 
-typedef struct bed {
-    ves_problem *problem;
-    ves_plan *plan;
-    ves_diag *diag;
-} bed;
-
-static void complain(const bed *b)
-{
-    char text[2000];
-    for (int k = 0; k < ves_diag_count(b->diag); k++) {
-        ves_diag_text(b->diag, k, text, sizeof text);
-        cr_log_error("%s", text);
-    }
-}
-
 static bed bed_make(const char *text)
 {
-    bed b = {.diag = ves_diag_create()};
-    ves_read_options options = {0};
-    ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), &options, &b.problem, b.diag);
-    if (status == VES_OK) status = ves_plan_create(b.problem, NULL, &b.plan, b.diag);
-    if (status != VES_OK) complain(&b);
-    cr_assert_eq(status, VES_OK, "%s", ves_status_text(status));
-    return b;
-}
-
-static void bed_clear(bed *b)
-{
-    ves_plan_destroy(b->plan);
-    ves_problem_destroy(b->problem);
-    ves_diag_destroy(b->diag);
+    return bed_with(text, NULL, 0, 0);
 }
 
 /* A tube whose every number hangs on a variable through `q`; %s: curves, then the rest. */

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "bed.h"
 #include "plan/inside.h"
 #include "problem/problem.h"
 #include "surface/figure.h"
@@ -14,29 +15,9 @@ enum { X, XU, XV, XUU, XUV, XVV, FIELDS, POINTS = 40 };
 
 static const double PI = 3.141592653589793;
 
-typedef struct bed {
-    ves_problem *problem;
-    ves_plan *plan;
-    ves_diag *diag;
-} bed;
-
 static bed bed_make(const char *text)
 {
-    bed b = {.diag = ves_diag_create()};
-    ves_read_options options = {0};
-    char message[2000] = "";
-    ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), &options, &b.problem, b.diag);
-    if (status == VES_OK) status = ves_plan_create(b.problem, NULL, &b.plan, b.diag);
-    if (ves_diag_count(b.diag)) ves_diag_text(b.diag, 0, message, sizeof message);
-    cr_assert_eq(status, VES_OK, "%s", message);
-    return b;
-}
-
-static void bed_clear(bed *b)
-{
-    ves_plan_destroy(b->plan);
-    ves_problem_destroy(b->problem);
-    ves_diag_destroy(b->diag);
+    return bed_with(text, NULL, 0, 0);
 }
 
 static void start(const bed *b, double *x)

@@ -4,33 +4,14 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "bed.h"
 #include "measure/registry.h"
 #include "problem/problem.h"
 #include "vesica/plan.h"
 
-typedef struct bed {
-    ves_problem *problem;
-    ves_plan *plan;
-    ves_diag *diag;
-} bed;
-
 static bed bed_make(const char *text, const ves_measure *const *plugin)
 {
-    bed b = {.diag = ves_diag_create()};
-    ves_read_options options = {.plugin = plugin};
-    char message[2000] = "";
-    ves_status status = ves_problem_read_text("test.yaml", text, strlen(text), &options, &b.problem, b.diag);
-    if (status == VES_OK) status = ves_plan_create(b.problem, NULL, &b.plan, b.diag);
-    if (ves_diag_count(b.diag)) ves_diag_text(b.diag, 0, message, sizeof message);
-    cr_assert_eq(status, VES_OK, "%s", message);
-    return b;
-}
-
-static void bed_clear(bed *b)
-{
-    ves_plan_destroy(b->plan);
-    ves_problem_destroy(b->problem);
-    ves_diag_destroy(b->diag);
+    return bed_with(text, plugin, 0, 0);
 }
 
 static ves_verdict judged(const bed *b, const double *x, unsigned want, double cutoff, double *arrays)
