@@ -75,7 +75,7 @@ typedef struct ves_run {
     bool searched; /* false: measured once */
     uint64_t seed;
     int jobs, quadrature[2]; /* nodes a patch; of the result when it is there */
-    double change; /* relative, that the choice of the quadrature left; NAN: it was given */
+    double change;           /* relative, that the choice of the quadrature left; NAN: it was given */
     ves_design start;
     const bool *idle;   /* [variables] no effect seen on what is judged; NULL: nobody looked */
     const char *folder; /* NULL: none */

@@ -1,7 +1,7 @@
-/* The least distance between two pieces of curves: X + X' t + X'' t^2 / 2 for lo <= t <= hi, about one node
- * of each. A place is a piece with lo = hi = 0. Projected Newton steps, shortened until the distance does not
- * grow; about three of them. test  parallel, skew and crossing lines; a parabola's point of closest approach
- */
+/* The least distance between two pieces of curves: X + X' t + X'' t^2 / 2 for lo <= t <= hi, about one
+ * node of each. A place is a piece with lo = hi = 0. Projected Newton steps, shortened until the distance
+ * does not grow; about three of them.
+ * test  parallel, skew and crossing lines; a parabola's point of closest approach */
 #ifndef VES_MEASURE_APPROACH_H
 #define VES_MEASURE_APPROACH_H
 

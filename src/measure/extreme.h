@@ -1,12 +1,13 @@
 /* The farthest point of the surface along a direction d.
  *
- * In the cell of every node X is its Taylor polynomial of degree 2 about the node: that tells which cells may
- * hold the farthest point, and where, up to third order in the spacing. From there Newton's steps go on, by
- * looks at the surface itself (measure/hill.h), on the ends of patches too. The value is one that was seen,
- * at a look or a node, and no node lies beyond it; where the grid resolves the surface it is the largest, to
- * rounding. (Without looks it is what the polynomial promises.) Caps need no look: they lie within the hull
- * of their curves. Derivative: the maximiser is stationary, or held by an end of the patch, so its u and v
- * count as constants (envelope theorem). test  closed forms; what no grid resolves; differences */
+ * In the cell of every node X is its Taylor polynomial of degree 2 about the node: that tells which cells
+ * may hold the farthest point, and where, up to third order in the spacing. From there Newton's steps go
+ * on, by looks at the surface itself (measure/hill.h), on the ends of patches too. The value is one that
+ * was seen, at a look or a node, and no node lies beyond it; where the grid resolves the surface it is the
+ * largest, to rounding. (Without looks it is what the polynomial promises.) Caps need no look: they lie
+ * within the hull of their curves. Derivative: the maximiser is stationary, or held by an end of the
+ * patch, so its u and v count as constants (envelope theorem).
+ * test  closed forms; what no grid resolves; differences */
 #ifndef VES_MEASURE_EXTREME_H
 #define VES_MEASURE_EXTREME_H
 

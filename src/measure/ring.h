@@ -1,7 +1,8 @@
 /* A closed curve between its nodes. Evenly spread nodes, more than two for each Fourier mode, say all of a
- * curve: at any v it is a sum of weights times its nodes. (Trigonometric
- * interpolation: of an even number n weight j is sin(n x / 2) / (n tan(x / 2)), x = v - v_j, of an odd one
- * with sin for tan.) A place is a curve of one node. test  waves of every mode that fits, anywhere */
+ * curve: at any v it is a sum of weights times its nodes. (Trigonometric interpolation: of an even number
+ * n weight j is sin(n x / 2) / (n tan(x / 2)), x = v - v_j, of an odd one with sin for tan.) A place is a
+ * curve of one node.
+ * test  waves of every mode that fits, anywhere */
 #ifndef VES_MEASURE_RING_H
 #define VES_MEASURE_RING_H
 

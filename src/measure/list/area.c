@@ -1,6 +1,7 @@
 #include "vesica/measure.h"
 
-/* Area of the surface (caps are not part of it). test  sphere, cone, cylinder; scales with s^2 */
+/* Area of the surface (caps are not part of it).
+ * test  sphere, cone, cylinder; scales with s^2 */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     double sum = 0;

@@ -58,9 +58,9 @@ static ves_flux total(const ves_measure_input *input, const double d[3])
     return sum;
 }
 
-/* d . centroid, d = along / |along|: integral of d . X over the volume (or the surface), over the volume (or
- * the area). VES_NO_NUMBER: along is zero, or the shape encloses nothing. test  frustum and half ball with
- * caps, cone; moves and turns with the shape; differences */
+/* d . centroid, d = along / |along|: integral of d . X over the volume (or the surface), over the volume
+ * (or the area). VES_NO_NUMBER: along is zero, or the shape encloses nothing.
+ * test  frustum and half ball with caps, cone; moves and turns with the shape; differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     ves_direction d;

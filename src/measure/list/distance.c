@@ -223,10 +223,11 @@ static double prepare(const ves_measure_input *input)
 
 /* The least distance between two places or curves, exact: nodes tell where the valleys are, and from there
  * it goes down along the curves themselves. What lies between nodes without a trace in them is not found;
- * what is reported is the distance of two points. Derivative: along r, both points held (envelope theorem).
- * Where the distance is 0 it has a kink and no derivative: the gradient is 0 there, which is one of its
- * slopes. test  point to circle, coaxial and skew circles, against a dense search; places on their own curve,
- * crossing curves: 0; differences */
+ * what is reported is the distance of two points. Derivative: along r, both points held (envelope
+ * theorem). Where the distance is 0 it has a kink and no derivative: the gradient is 0 there, which is one
+ * of its slopes.
+ * test  point to circle, coaxial and skew circles, against a dense search; places on their own curve,
+ *       crossing curves: 0; differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     const ves_samples *a = site(input, FROM), *b = site(input, TO);

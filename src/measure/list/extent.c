@@ -10,8 +10,9 @@ static const ves_key KEYS[] = {{.name = "along",
                                {.name = NULL}};
 
 /* max d . X - min d . X over the surface, d = along / |along| (measure/extreme.h). VES_NO_NUMBER: along is
- * zero. test  ellipsoid turned any way: 2 |M^T d|; tilted cylinder and cone: the rims; without looks order 3;
- * differences */
+ * zero.
+ * test  ellipsoid turned any way: 2 |M^T d|; tilted cylinder and cone: the rims; without looks order 3;
+ *       differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     ves_direction d;

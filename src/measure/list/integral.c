@@ -11,8 +11,8 @@ static unsigned needs(const ves_args *args)
     return ves_pointwise_needs(args) | VES_AREA;
 }
 
-/* integral of f(x, y, z, H, K, k1, k2, u, v) dA, by the quadrature of the patches. test  1: area; 4 H^2 - 2 K
- * and k1^2 + k2^2: bending; moments of a sphere; differences */
+/* integral of f(x, y, z, H, K, k1, k2, u, v) dA, by the quadrature of the patches.
+ * test  1: area; 4 H^2 - 2 K and k1^2 + k2^2: bending; moments of a sphere; differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     ves_pointwise p = ves_pointwise_init(input);

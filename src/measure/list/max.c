@@ -52,9 +52,9 @@ static ves_power gather(const ves_measure_input *input, double p)
     return power;
 }
 
-/* The largest value of a formula over the surface, or its power mean ( integral max(f, 0)^p dA / A )^(1/p),
- * which is less, and 0 where f is nowhere positive. VES_NO_NUMBER where the formula is no number. test  torus
- * and cone in closed form; power means on a cylinder; differences */
+/* The largest value of a formula over the surface, or its power mean ( integral max(f, 0)^p dA / A
+ * )^(1/p), which is less, and 0 where f is nowhere positive. VES_NO_NUMBER where the formula is no number.
+ * test  torus and cone in closed form; power means on a cylinder; differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     double p = ves_argument_number(input, SMOOTH), *place = place_of(input), *all = place + 2;

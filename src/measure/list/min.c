@@ -13,8 +13,8 @@ static size_t room(const ves_measure_input *input)
     return ves_pointwise_scratch(input) + ves_summit_room(input);
 }
 
-/* The least value of a formula over the surface. VES_NO_NUMBER where the formula is no number. test  torus in
- * closed form; differences */
+/* The least value of a formula over the surface. VES_NO_NUMBER where the formula is no number.
+ * test  torus in closed form; differences */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     double top;

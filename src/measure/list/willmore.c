@@ -1,6 +1,7 @@
 #include "measure/sum.h"
 
-/* The Willmore energy. test  sphere 4 pi at any radius; Clifford torus 2 pi^2; catenoid 0 */
+/* The Willmore energy.
+ * test  sphere 4 pi at any radius; Clifford torus 2 pi^2; catenoid 0 */
 static const ves_quadratic INTEGRAND = {.h = 1, .k = 0, .m = 0};
 
 static ves_status eval(const ves_measure_input *input, double *value)
