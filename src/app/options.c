@@ -6,6 +6,7 @@
 
 #include "app/app.h"
 #include "base/text.h"
+#include "base/vector.h"
 #include "formula/dimension.h"
 
 enum { OPTIONS = 64 };
@@ -94,7 +95,7 @@ static bool take_view(app *a, const char *value)
     if (comma) *comma = 0;
     if (!comma || !ves_text_number(copy, &angle[0]) || !ves_text_number(comma + 1, &angle[1]))
         return wrong(a, "--view needs azimuth,height in degrees as 35,25, got \"%s\"", value);
-    for (int k = 0; k < 2; k++) a->options.view[k] = angle[k] * 3.14159265358979323846 / 180;
+    for (int k = 0; k < 2; k++) a->options.view[k] = angle[k] * VES_PI / 180;
     return a->options.viewed = true;
 }
 

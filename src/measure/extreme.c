@@ -3,13 +3,12 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/vector.h"
 #include "measure/argument.h"
 #include "measure/hill.h"
 #include "measure/summit.h"
 
 enum { CHUNK = 64, STEPS = 30 };
-
-static const double AROUND = 6.283185307179586;
 
 static double along(const double *const plane[3], int n, const double d[3])
 {
@@ -112,7 +111,7 @@ static ves_extreme next_init(const ves_measure_input *input, const ves_extreme *
     bool periodic = input->sample[e->surface]->periodic;
     ves_extreme next = {.surface = e->surface, .node = 4, .at = {e->at[0] + step[0], e->at[1] + step[1]}};
     next.at[0] = fmin(fmax(next.at[0], 0), 1);
-    if (!periodic) next.at[1] = fmin(fmax(next.at[1], 0), AROUND);
+    if (!periodic) next.at[1] = fmin(fmax(next.at[1], 0), VES_TWO_PI);
     return next;
 }
 

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static const double AROUND = 6.283185307179586;
+#include "base/vector.h"
 
 /* --- quadrics --- */
 
@@ -97,7 +97,7 @@ ves_cell ves_hill_box(const ves_samples *s, const double at[2], const double rea
 {
     ves_cell box;
     for (int d = 0; d < 2; d++) {
-        double end = d ? AROUND : 1;
+        double end = d ? VES_TWO_PI : 1;
         bool open = d && s->periodic;
         box.lo[d] = open ? -reach[d] : fmax(-reach[d], -at[d]);
         box.hi[d] = open ? reach[d] : fmin(reach[d], end - at[d]);
@@ -107,5 +107,5 @@ ves_cell ves_hill_box(const ves_samples *s, const double at[2], const double rea
 
 double ves_hill_wrap(const ves_samples *s, double v)
 {
-    return s->periodic ? v - AROUND * floor(v / AROUND) : v;
+    return s->periodic ? v - VES_TWO_PI * floor(v / VES_TWO_PI) : v;
 }

@@ -2,9 +2,8 @@
 
 #include <math.h>
 
+#include "base/vector.h"
 #include "measure/hill.h"
-
-static const double AROUND = 6.283185307179586;
 
 /* Where a surface has no tangent plane at its end, a pole, one stays this far inside: on the finer grid half
  * as far, so that what grows without bound towards a pole differs there, and fails its proof. */
@@ -39,7 +38,7 @@ static int look(const climb *c, const double u[3], const double v[3])
 static void stencil(climb *c, double node[2][3])
 {
     for (int d = 0; d < 2; d++) {
-        double lo = d ? 0 : c->inside[0], hi = d ? AROUND : 1 - c->inside[1];
+        double lo = d ? 0 : c->inside[0], hi = d ? VES_TWO_PI : 1 - c->inside[1];
         c->h[d] = fmin(c->h[d], (hi - lo) / 2);
         double mid = c->at[d];
         if (!d || !c->surface->periodic) mid = fmin(fmax(mid, lo + c->h[d]), hi - c->h[d]);
@@ -212,15 +211,21 @@ static double rise_u(const ves_samples *s, const double *height, int i, int j)
     return rise(s->u + first, height + j * s->nu + first, i - first, lo, hi);
 }
 
+/* The first of the three rows about j; on a periodic surface it may be -1. */
+static int first_row(const ves_samples *s, int j)
+{
+    return s->periodic ? j - 1 : j < 1 ? 0 : j > s->nv - 2 ? s->nv - 3 : j - 1;
+}
+
 /* Along v, of f[0..2] at the rows about j. */
 static double rise_v(const ves_samples *s, int j, const double f[3])
 {
     double lo, hi, x[3];
-    int first = s->periodic ? j - 1 : j < 1 ? 0 : j > s->nv - 2 ? s->nv - 3 : j - 1;
+    int first = first_row(s, j);
     ves_cell_v(s, j, &lo, &hi);
     for (int k = 0; k < 3; k++) {
         int row = first + k;
-        x[k] = row < 0 ? s->v[s->nv - 1] - AROUND : row >= s->nv ? s->v[0] + AROUND : s->v[row];
+        x[k] = row < 0 ? s->v[s->nv - 1] - VES_TWO_PI : row >= s->nv ? s->v[0] + VES_TWO_PI : s->v[row];
     }
     return rise(x, f, j - first, lo, hi);
 }
@@ -228,7 +233,7 @@ static double rise_v(const ves_samples *s, int j, const double f[3])
 /* The three rows about j. */
 static void rows_about(const ves_samples *s, int j, int row[3])
 {
-    int first = s->periodic ? j - 1 : j < 1 ? 0 : j > s->nv - 2 ? s->nv - 3 : j - 1;
+    int first = first_row(s, j);
     for (int k = 0; k < 3; k++) row[k] = (first + k + s->nv) % s->nv;
 }
 

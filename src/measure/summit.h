@@ -1,8 +1,9 @@
-/* The highest point over the surface of a function that is known by its values alone: not of its nodes, but
- * found by looks, which are exact, between them and on the ends u = 0 and u = 1. The value is one that the
- * surface has. At a pole, where a surface has no tangent plane, what needs one is looked at beside it.
+/* The highest point over the surface of a function that is known by its values alone: not of its nodes,
+ * but found by looks, which are exact, between them and on the ends u = 0 and u = 1. The value is one that
+ * the surface has. At a pole, where a surface has no tangent plane, what needs one is looked at beside it.
  * Derivative: the summit is stationary, or held by an end, so its u and v count as constants (envelope
- * theorem). test  cones, catenoids, ellipsoids in closed form; hills that overtake each other; differences */
+ * theorem).
+ * test  cones, catenoids, ellipsoids in closed form; hills that overtake each other; differences */
 #ifndef VES_MEASURE_SUMMIT_H
 #define VES_MEASURE_SUMMIT_H
 

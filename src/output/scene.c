@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/text.h"
+#include "base/vector.h"
 
 enum { REFINE = 12, AROUND = 24, CAP_MOST = 64, PIECES = 1000000 };
 
@@ -13,21 +14,11 @@ int ves_scene_quantity(const char *word)
     return word ? ves_words_find("patch|H|K|k1|k2", word) : -1;
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static double normalise(double a[3])
 {
-    double size = sqrt(dot(a, a));
+    double size = sqrt(ves_dot(a, a));
     for (int c = 0; c < 3 && size > 0; c++) a[c] /= size;
     return size;
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int c = 0; c < 3; c++) out[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
 }
 
 static int nodes(const ves_figure_patch *p)
@@ -59,7 +50,7 @@ static void camera_aim(ves_camera *camera, const ves_figure *figure, const ves_v
     double ca = cos(view->azimuth), sa = sin(view->azimuth), ch = cos(view->height_angle);
     camera->toward[e1] = ch * ca, camera->toward[e2] = ch * sa, camera->toward[up] = sin(view->height_angle);
     camera->right[e1] = -sa, camera->right[e2] = ca, camera->right[up] = 0;
-    cross(camera->toward, camera->right, camera->up);
+    ves_cross(camera->toward, camera->right, camera->up);
 }
 
 /* Middle of the bounding box and half its diagonal. */
@@ -72,7 +63,7 @@ static double bounds(const ves_figure *figure, double middle[3])
         middle[c] = any ? (lo[c] + hi[c]) / 2 : 0;
         half[c] = any ? (hi[c] - lo[c]) / 2 : 0;
     }
-    double size = sqrt(dot(half, half));
+    double size = sqrt(ves_dot(half, half));
     return size > 0 ? size : 1;
 }
 
@@ -80,10 +71,10 @@ static double bounds(const ves_figure *figure, double middle[3])
 static double project(const ves_camera *camera, const double x[3], double *px, double *py)
 {
     double d[3] = {x[0] - camera->target[0], x[1] - camera->target[1], x[2] - camera->target[2]};
-    double depth = dot(d, camera->toward);
+    double depth = ves_dot(d, camera->toward);
     double near = camera->distance > 0 ? camera->distance / (camera->distance - depth) : 1;
-    *px = camera->x + camera->scale * near * dot(d, camera->right);
-    *py = camera->y - camera->scale * near * dot(d, camera->up);
+    *px = camera->x + camera->scale * near * ves_dot(d, camera->right);
+    *py = camera->y - camera->scale * near * ves_dot(d, camera->up);
     return depth;
 }
 
@@ -117,9 +108,9 @@ static ves_rgb lit(ves_rgb base, const double n[3], const double to_eye[3], doub
     static const double key[3] = {-0.4205, 0.6207, 0.6619}, fill[3] = {0.8452, 0.1690, 0.5071};
     double half[3] = {key[0] + to_eye[0], key[1] + to_eye[1], key[2] + to_eye[2]};
     normalise(half);
-    double facing = fmax(0, dot(n, to_eye)), soft = pow(fmax(0, 0.5 + 0.5 * dot(n, key)), 1.4);
-    double shade = 0.92 * soft + 0.16 * fmax(0, dot(n, fill)) - 0.30 * fmax(0, 1 - 2.6 * facing);
-    double light = 1.06 - depth * (1 - shade), shine = gloss * pow(fmax(0, dot(n, half)), 44);
+    double facing = fmax(0, ves_dot(n, to_eye)), soft = pow(fmax(0, 0.5 + 0.5 * ves_dot(n, key)), 1.4);
+    double shade = 0.92 * soft + 0.16 * fmax(0, ves_dot(n, fill)) - 0.30 * fmax(0, 1 - 2.6 * facing);
+    double light = 1.06 - depth * (1 - shade), shine = gloss * pow(fmax(0, ves_dot(n, half)), 44);
     ves_rgb colour = {fmin(1, base.r * light), fmin(1, base.g * light), fmin(1, base.b * light)};
     return ves_colour_mix(colour, (ves_rgb){1, 1, 1}, shine);
 }
@@ -160,7 +151,7 @@ static bool turned_away(const maker *m, const double x[3], const double normal[3
 {
     double eye[3];
     toward_eye(m, x, eye);
-    return dot(normal, eye) < 0;
+    return ves_dot(normal, eye) < 0;
 }
 
 /* What a surface of colour `base` looks like at x. */
@@ -170,11 +161,11 @@ static ves_rgb surface_colour(const maker *m, const double x[3], const double no
     static const ves_rgb lining = {0.86, 0.84, 0.80};
     double eye[3], n[3], to_eye[3];
     toward_eye(m, x, eye);
-    bool inside = dot(normal, eye) < 0;
+    bool inside = ves_dot(normal, eye) < 0;
     const double *axis[3] = {camera->right, camera->up, camera->toward};
     for (int c = 0; c < 3; c++) {
-        n[c] = dot(normal, axis[c]) * (inside ? -1 : 1);
-        to_eye[c] = dot(eye, axis[c]);
+        n[c] = ves_dot(normal, axis[c]) * (inside ? -1 : 1);
+        to_eye[c] = ves_dot(eye, axis[c]);
     }
     if (inside && !m->p->one_sided) base = ves_colour_mix(base, lining, m->plane ? 0.30 : 0.78);
     return lit(base, n, to_eye, m->plane ? 0.42 : 0.60, inside ? 0.04 : 0.25);
@@ -198,7 +189,7 @@ static void piece_add(const maker *m, int i, int j, int a, int b)
     blend3(m, p->normal, i, j, fu, fv, normal);
     if (!(normalise(normal) > 1e-3)) {
         for (int c = 0; c < 3; c++) one[c] = x[2][c] - x[0][c], two[c] = p->side * (x[3][c] - x[1][c]);
-        cross(one, two, normal);
+        ves_cross(one, two, normal);
         normalise(normal);
     }
     ves_rgb base = m->plane ? ves_colour_value(&scene->colours, blend(m, m->plane, i, j, fu, fv)) : m->base;
@@ -230,7 +221,7 @@ static void triangle_add(const maker *m, double (*const x)[3], ves_rgb base, con
     ves_scene *scene = m->scene;
     double one[3], two[3], normal[3], px, py;
     for (int c = 0; c < 3; c++) one[c] = x[0][c] - x[2][c], two[c] = x[1][c] - x[2][c];
-    cross(one, two, normal);
+    ves_cross(one, two, normal);
     normalise(normal);
     for (int a = 0; a < fine[0]; a++)
         for (int b = 0; b < fine[1]; b++) {
@@ -327,7 +318,7 @@ static double line_length(const ves_figure_patch *p, int along)
         for (int j = 0; j < (dj ? p->nv : p->columns); j++) {
             int a = i * p->columns + j, b = (i + di) * p->columns + (j + dj) % p->columns;
             double d[3] = {p->X[0][a] - p->X[0][b], p->X[1][a] - p->X[1][b], p->X[2][a] - p->X[2][b]};
-            double length = sqrt(dot(d, d));
+            double length = sqrt(ves_dot(d, d));
             if (isfinite(length)) sum += length, count++;
         }
     }

@@ -1,11 +1,10 @@
 /* What the end curves look like at the start: those that cross themselves, and ends that nearly meet. */
 #include <math.h>
 
+#include "base/vector.h"
 #include "plan/inside.h"
 
 enum { LEAST = 256, MOST = 1024, AROUND = 64, STEPS = 4 };
-
-static const double TWO_PI = 6.283185307179586;
 
 /* Two pieces cross where they come this near to each other, relative to the curve, and are not parallel: a
  * curve pressed flat runs over its own way back, and that is no crossing. */
@@ -14,15 +13,10 @@ static const double TOUCH = 1e-6, SLANT = 1e-3;
 /* Ends this near to each other, relative to their size, were probably meant to meet. */
 static const double NEAR = 0.05;
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static double distance(const double a[3], const double b[3])
 {
     double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    return sqrt(dot(d, d));
+    return sqrt(ves_dot(d, d));
 }
 
 typedef struct edge {
@@ -37,7 +31,7 @@ static bool edge_make(const ves_plan *plan, int curve, int count, ves_arena *are
     int modes = ves_curves_modes(plan->curves, curve);
     *e = (edge){.count = count, .point = ves_arena_take(arena, (size_t)count + 1, sizeof *e->point)};
     for (int j = 0; e->point && j <= count; j++) {
-        ves_curve_point(coef, modes, j < count ? TWO_PI * j / count : 0, 0, e->point[j]);
+        ves_curve_point(coef, modes, j < count ? VES_TWO_PI * j / count : 0, 0, e->point[j]);
         e->size = fmax(e->size, distance(e->point[j], e->point[0]));
     }
     return e->point && isfinite(e->size);
@@ -47,10 +41,10 @@ static bool edge_make(const ves_plan *plan, int curve, int count, ves_arena *are
  * parallel. */
 static bool approach(const double a[3], const double b[3], const double apart[3], double *s, double *t)
 {
-    double aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), d = aa * bb - ab * ab;
+    double aa = ves_dot(a, a), bb = ves_dot(b, b), ab = ves_dot(a, b), d = aa * bb - ab * ab;
     if (!(d > SLANT * SLANT * aa * bb)) return false;
-    *s = (bb * dot(a, apart) - ab * dot(b, apart)) / d;
-    *t = (ab * dot(a, apart) - aa * dot(b, apart)) / d;
+    *s = (bb * ves_dot(a, apart) - ab * ves_dot(b, apart)) / d;
+    *t = (ab * ves_dot(a, apart) - aa * ves_dot(b, apart)) / d;
     return true;
 }
 
@@ -64,10 +58,11 @@ static bool cross(const edge *e, int i, int j, double *s, double *t)
         b[c] = e->point[j + 1][c] - q[c];
         apart[c] = q[c] - p[c];
     }
-    if (dot(apart, apart) > 4 * (dot(a, a) + dot(b, b)) || !approach(a, b, apart, s, t)) return false;
+    if (ves_dot(apart, apart) > 4 * (ves_dot(a, a) + ves_dot(b, b)) || !approach(a, b, apart, s, t))
+        return false;
     if (fmin(*s, *t) < -TOUCH || fmax(*s, *t) > 1 + TOUCH) return false;
     for (int c = 0; c < 3; c++) miss[c] = apart[c] + *t * b[c] - *s * a[c];
-    return sqrt(dot(miss, miss)) <= TOUCH * e->size;
+    return sqrt(ves_dot(miss, miss)) <= TOUCH * e->size;
 }
 
 /* What is rounding beside a size is 0. */
@@ -106,7 +101,7 @@ static void refine(const ves_plan *plan, int curve, double v[2])
 /* The first crossing; a space curve seldom has one, a flat one often. */
 static void crossing_find(const ves_plan *plan, int curve, const edge *e, ves_diag *diag)
 {
-    double s, t, step = TWO_PI / e->count;
+    double s, t, step = VES_TWO_PI / e->count;
     for (int i = 0; i < e->count; i++)
         for (int j = i + 2; j < e->count - (i == 0); j++) {
             if (!cross(e, i, j, &s, &t)) continue;

@@ -1,4 +1,5 @@
 /* Outward: which way a design faces. */
+#include "base/vector.h"
 #include "plan/inside.h"
 
 #include <math.h>
@@ -15,28 +16,14 @@ typedef struct facing {
     double area, moment[3]; /* twice the area, and twice the first moment */
 } facing;
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/* (b - a) x (c - a): twice the vector area. */
-static void twice_area(double (*const x)[3], double n[3])
-{
-    for (int k = 0; k < 3; k++) {
-        int p = (k + 1) % 3, q = (k + 2) % 3;
-        n[k] = (x[1][p] - x[0][p]) * (x[2][q] - x[0][q]) - (x[1][q] - x[0][q]) * (x[2][p] - x[0][p]);
-    }
-}
-
 /* The patch itself weighs in where its part stands; caps only close it. */
 static void facing_add(double (*const x)[3], bool cap, void *sum)
 {
     facing *f = sum;
     double n[3];
-    twice_area(x, n);
-    double area = cap ? 0 : sqrt(dot(n, n));
-    f->area += area, f->flux += dot(x[0], n);
+    ves_twice_area(x[0], x[1], x[2], n);
+    double area = cap ? 0 : sqrt(ves_dot(n, n));
+    f->area += area, f->flux += ves_dot(x[0], n);
     for (int k = 0; k < 3; k++) {
         f->vector[k] += n[k];
         f->moment[k] += area * (x[0][k] + x[1][k] + x[2][k]) / 3;
@@ -48,11 +35,11 @@ static void angle_add(double (*const x)[3], bool cap, void *sum)
 {
     (void)cap;
     double n[3], r[3];
-    twice_area(x, n);
-    for (int k = 0; k < 3; k++) r[k] = sqrt(dot(x[k], x[k]));
-    double around =
-        r[0] * r[1] * r[2] + dot(x[0], x[1]) * r[2] + dot(x[1], x[2]) * r[0] + dot(x[2], x[0]) * r[1];
-    *(double *)sum += 2 * atan2(dot(x[0], n), around);
+    ves_twice_area(x[0], x[1], x[2], n);
+    for (int k = 0; k < 3; k++) r[k] = sqrt(ves_dot(x[k], x[k]));
+    double around = r[0] * r[1] * r[2] + ves_dot(x[0], x[1]) * r[2] + ves_dot(x[1], x[2]) * r[0] +
+                    ves_dot(x[2], x[0]) * r[1];
+    *(double *)sum += 2 * atan2(ves_dot(x[0], n), around);
 }
 
 typedef void triangle_take(double (*const x)[3], bool cap, void *sum);
@@ -91,7 +78,6 @@ static double facing_volume(const facing *f)
 /* A closed part inside another bounds a hollow: its outside is within. */
 static bool is_hollow(const ves_plan *plan, const ves_figure *figure, int part, int *corner)
 {
-    static const double HALF = 6.283185307179586; /* of all directions */
     const ves_figure_patch *own = &figure->patch[part];
     int within = 0, node = own->nu / 2 * own->columns;
     const double at[3] = {own->X[0][node], own->X[1][node], own->X[2][node]};
@@ -100,7 +86,7 @@ static bool is_hollow(const ves_plan *plan, const ves_figure *figure, int part, 
         if (plan->part[other] != other || other == part) continue;
         for (int k = 0; k < figure->patches; k++)
             if (plan->part[k] == other) triangles_visit(&figure->patch[k], at, corner, angle_add, &angle);
-        within += fabs(angle) > HALF;
+        within += fabs(angle) > VES_TWO_PI; /* half of all directions */
     }
     return within % 2;
 }

@@ -91,7 +91,7 @@ static bool searches(const study *s)
     return !s->options->once && p->variables > 0 && (p->objective || p->constraints);
 }
 
-static void settle(study *s)
+static void set_up(study *s)
 {
     ves_run *run = s->run;
     const ves_run_options *o = s->options;
@@ -547,7 +547,7 @@ ves_status ves_run_create(const ves_problem *problem, const ves_run_options *opt
                .arena = &box->arena};
     s.wall = ves_study_clock();
     s.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
-    settle(&s);
+    set_up(&s);
     ves_status status = work(&s);
     plans_destroy(s.plan, s.run->jobs);
     ves_tracer_end(&s.tracer);

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-static const double two_pi = 6.283185307179586;
+#include "base/vector.h"
 
 double ves_figure_u(const ves_figure_patch *patch, int node)
 {
@@ -12,7 +12,7 @@ double ves_figure_u(const ves_figure_patch *patch, int node)
 double ves_figure_v(const ves_figure_patch *patch, int node)
 {
     bool whole = patch->v_min == 0 && patch->v_max == 0;
-    double range = whole ? two_pi : patch->v_max - patch->v_min;
+    double range = whole ? VES_TWO_PI : patch->v_max - patch->v_min;
     double slide = node / patch->columns == patch->nu ? patch->slide : 0;
     return patch->v_min + node % patch->columns * range / patch->nv + slide;
 }

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "surface/figure.h"
 
 /* A mesh while it is made. */
@@ -65,15 +66,6 @@ static bool hidden(const ves_figure_patch *p, int node)
     return pole && node % p->columns != 0;
 }
 
-/* Adds the vector area of a triangle. */
-static void area_add(double sum[3], const double *o, const double *a, const double *b)
-{
-    for (int c = 0; c < 3; c++) {
-        int d = (c + 1) % 3, e = (c + 2) % 3;
-        sum[c] += (a[d] - o[d]) * (b[e] - o[e]) - (a[e] - o[e]) * (b[d] - o[d]);
-    }
-}
-
 /* A cap with vertices of its own, without curvature; normals are those of the triangles around each, which on
  * a flat cap are all the same. */
 static void cap_lay(maker *m, int patch, int end, int *vertex)
@@ -83,10 +75,11 @@ static void cap_lay(maker *m, int patch, int end, int *vertex)
     for (int j = 0; j < p->columns; j++) vertex[row + j] = vertex_add(m, patch, row + j, -1);
     cap_add(m, patch, end, vertex);
     memset(m->normal + 3 * first, 0, 3 * sizeof *m->normal * (size_t)(m->vertices - first));
-    for (const int *corner = m->corner + 3 * triangle; triangle < m->triangles; triangle++, corner += 3)
-        for (int k = 0; k < 3; k++)
-            area_add(m->normal + 3 * corner[k], m->point + 3 * corner[0], m->point + 3 * corner[1],
-                     m->point + 3 * corner[2]);
+    for (const int *corner = m->corner + 3 * triangle; triangle < m->triangles; triangle++, corner += 3) {
+        double area[3];
+        ves_twice_area(m->point + 3 * corner[0], m->point + 3 * corner[1], m->point + 3 * corner[2], area);
+        for (int k = 0; k < 9; k++) m->normal[3 * corner[k / 3] + k % 3] += area[k % 3];
+    }
     for (int k = first; k < m->vertices; k++) {
         double *n = m->normal + 3 * k, size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         for (int c = 0; c < 3 && size > 0; c++) n[c] /= size;
