@@ -274,7 +274,7 @@ Test(api, a_number_outside_its_range_is_told_with_its_place)
     double x = 0.25;
     char text[500];
     cr_expect_eq(ves_plan_measure(plan, &x, 0, &design), VES_OUTSIDE);
-    ves_plan_outside(plan, "mine", diag);
+    ves_plan_why(plan, VES_OUTSIDE, "mine", diag);
     ves_diag_text(diag, 0, text, sizeof text);
     cr_expect(strstr(text, "f.yaml:3:") && strstr(text, "warning: mine: \"radius\" must be >= 0, got -0.25"),
               "%s", text);

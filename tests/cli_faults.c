@@ -65,7 +65,7 @@ Test(cli_faults, what_failed_a_check_stands_in_the_result)
     write_file("crossed.yaml", crossed);
     outcome o = vesica(NULL, "check crossed.yaml");
     cr_assert(strstr(o.out, ": ok") == NULL, "%s", o.out);
-    expect(o, 0, "does not pass the checks: the surface crosses itself", "crosses itself", "check");
+    expect(o, 1, "does not pass the checks: the surface crosses itself", "crosses itself", "check");
     o = vesica(NULL, "run crossed.yaml --json");
     json j = json_of(o.out);
     const ves_node *notes = ves_node_find(j.root, "notes");

@@ -229,6 +229,8 @@ static inline void rig_add(rig *r, ves_site site, const body *b, const ves_grid 
                                .periodic = grid->periodic,
                                .u = grid->u,
                                .v = grid->v,
+                               .u_range = {0, 1},
+                               .v_range = {0, 6.283185307179586},
                                .weight = grid->weight};
 }
 

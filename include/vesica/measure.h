@@ -56,6 +56,8 @@ typedef struct ves_samples {
     /* [nu], [nv]: 0 <= u <= 1, 0 <= v < 2 pi. On a surface u are Gauss nodes; v are evenly spread when
      * periodic, Gauss nodes of 0 .. 2 pi when not: the ends of a surface are no nodes. */
     const double *u, *v;
+    /* What formulas of u and v mean: the patch's own `domain`, else 0, 1 and 0, 2 pi. */
+    double u_range[2], v_range[2];
     const double *weight; /* [count] quadrature weight in du dv; along curves and caps dv; none at a place */
     const double *X[3], *Xu[3], *Xv[3], *Xuu[3], *Xuv[3], *Xvv[3];
     const double *normal[3];

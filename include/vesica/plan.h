@@ -65,15 +65,15 @@ typedef struct ves_sides {
 
 /* One candidate with all that is measured on it, in the sign and the units of the file. */
 typedef struct ves_design {
-    ves_status status;     /* VES_OK, or positive: it cannot be measured, the numbers behind slot are NAN */
+    ves_status status;     /* VES_OK, or positive: it cannot be measured, and what has no value is NAN */
     const double *x;       /* [variables] */
     const double *slot;    /* [slots] variables, unknown of solve:, parameters, as in ves_problem_slot */
     const double *measure; /* [measures] */
     const ves_sides *side; /* [constraints] */
-    double objective;      /* NAN: the file has none */
-    double violation;      /* the largest of the constraints, 0 without any */
+    double objective;      /* NAN: the file has none, or status is not VES_OK */
+    double violation;      /* the largest of the constraints, 0 without any; NAN: status is not VES_OK */
     double similarity;     /* the factor of scale:, 1 without */
-    bool feasible;         /* every constraint holds */
+    bool feasible;         /* VES_OK, and every constraint holds */
 } ves_design;
 
 /* Measures everything at x, also what nothing judges; x may be NULL when there are no variables. The arrays
@@ -81,9 +81,11 @@ typedef struct ves_design {
  * VES_RANGE: no such level; design is then untouched. */
 ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_design *design);
 
-/* After an answer VES_OUTSIDE: a warning "what: ..." about the number that has left the range of its key,
- * with its place when diag is the one that the problem was read with. */
-void ves_plan_outside(const ves_plan *plan, const char *what, ves_diag *diag);
+/* After a positive answer `status`: a warning "what: ..." that says why, with the place when diag is the one
+ * that the problem was read with: which number has left the range of its key (VES_OUTSIDE), which measure or
+ * formula has no value (VES_NO_NUMBER), where which patch has no point (VES_NO_POINT); else the sentence of
+ * the status. */
+void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag *diag);
 
 /* The problem as a search poses it: vesica/search.h with options, hooks and threads of one's own.
  *
@@ -116,7 +118,8 @@ ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u,
 
 /* The shape at x on nu x nv cells a patch (0: chosen), for files, pictures and meshes. Owned by the caller. A
  * design that fails is drawn all the same, with a warning in diag, as long as it has a shape: a positive
- * status says that it has none (VES_NO_ROOT, VES_NO_BRACKET) and *figure is NULL, as after VES_MEMORY. */
+ * status says that it has none (VES_NO_ROOT, VES_NO_BRACKET, VES_NO_POINT) and *figure is NULL, as after
+ * VES_MEMORY. */
 ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_figure **figure,
                            ves_diag *diag);
 

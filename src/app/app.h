@@ -51,6 +51,7 @@ typedef struct app_command {
     int least, most;     /* operands */
     const char *options; /* "set|seed|..." */
     int (*run)(app *a);
+    const char *more; /* what help says last, or NULL */
 } app_command;
 
 /* commands.c: ends with a NULL name. */

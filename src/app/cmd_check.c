@@ -171,7 +171,7 @@ static int report(app *a, checked *c)
         app_screen_design(c->run->problem, &c->run->best, stdout);
         costs(c);
     }
-    return c->run->any ? APP_DONE : APP_UNMET;
+    return c->run->any && c->run->proof == VES_OK ? APP_DONE : APP_UNMET;
 }
 
 int app_check(app *a)

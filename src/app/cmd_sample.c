@@ -54,13 +54,26 @@ static void values_print(const ves_points *p, const double *value)
     }
 }
 
-static int values(app *a, ves_plan *plan, int patch)
+/* Derivatives may be infinite at the end of a patch; points may not. */
+static int values_check(app *a, const char *patch, const ves_points *p, const double *value)
+{
+    for (int k = 0; k < p->count; k++)
+        for (int c = 0; c < 3; c++)
+            if (!isfinite(value[c * p->count + k]))
+                return app_fail(a, VES_NO_POINT,
+                                "%c of patch \"%s\" is not a finite number at u = %.7g, v = %.7g", "xyz"[c],
+                                patch, p -> u[k], p -> v[k]);
+    return APP_DONE;
+}
+
+static int values(app *a, ves_plan *plan, const ves_problem *problem, int patch)
 {
     ves_points p = {0};
     int code = points_open(a, &p);
     double *value = ves_memory_take(sizeof *value * (size_t)(3 * FIELDS) * (size_t)p.count);
     if (code == APP_DONE && (!value || ves_plan_points(plan, patch, p.count, p.u, p.v, value) != VES_OK))
         code = app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
+    if (code == APP_DONE) code = values_check(a, problem->patch[patch].name, &p, value);
     if (code == APP_DONE) values_print(&p, value);
     ves_memory_free(value);
     ves_points_free(&p);
@@ -92,8 +105,7 @@ static int bound(app *a, app_shape *shape)
     ves_status status = ves_plan_measure(shape->plan, shape->x, 0, &design);
     if (status < VES_OK || status == VES_NO_ROOT || status == VES_NO_BRACKET)
         return app_fail(a, status, "%s", ves_status_text(status));
-    if (status > VES_OK)
-        ves_diag_add(a->diag, VES_WARNING, status, (ves_mark){0}, "%s", ves_status_text(status));
+    ves_plan_why(shape->plan, status, "the design cannot be measured", a->diag);
     return APP_DONE;
 }
 
@@ -108,7 +120,7 @@ int app_sample(app *a)
     int patch = patch_find(a, p);
     code = patch < 0 ? unknown_patch(a, p) : bound(a, &shape);
     if (code == APP_DONE)
-        code = a->options.spine ? spine(a, shape.plan, p, patch) : values(a, shape.plan, patch);
+        code = a->options.spine ? spine(a, shape.plan, p, patch) : values(a, shape.plan, p, patch);
     app_shape_close(&shape);
     return code;
 }

@@ -4,25 +4,34 @@
 
 const app_command app_commands[] = {
     {"run", "run FILE", "search for the best shape; the result goes into a numbered folder under runs/", 1, 1,
-     PROBLEM "|seed|evaluations|jobs|out|progress|trace|test|no-files", app_run},
+     PROBLEM "|seed|evaluations|jobs|out|progress|trace|test|no-files", app_run, NULL},
     {"check", "check FILE", "read a problem file, measure its start design, say what a run will do", 1, 1,
-     PROBLEM, app_check},
-    {"eval", "eval FILE|RUN", "measure one design", 1, 1, PROBLEM, app_eval},
+     PROBLEM, app_check,
+     "Exit code: 0 when the file is in order and its start design can be measured and passes its checks; 1 "
+     "when\n"
+     "it does not; 2 when the file is wrong. A start that violates a constraint is in order: a search begins "
+     "there."},
+    {"eval", "eval FILE|RUN", "measure one design", 1, 1, PROBLEM, app_eval, NULL},
     {"sample", "sample FILE|RUN", "exact points and derivatives of one patch, as CSV", 1, 1,
-     "set|start|plugin|patch|points|spine", app_sample},
+     "set|start|plugin|patch|points|spine", app_sample,
+     "u runs from 0 to 1 along the patch and v from 0 to 2 pi round it, also where a `domain` gives the "
+     "formulas\n"
+     "of a sheet other ranges; derivatives are by these u and v."},
     {"export", "export FILE|RUN", "write the shape for other programs", 1, 1,
-     "set|start|plugin|to|unit|out|grid", app_export},
-    {"show", "show FILE|RUN", "draw the shape", 1, 1, "set|start|plugin|png|colour|view|grid", app_show},
+     "set|start|plugin|to|unit|out|grid", app_export, NULL},
+    {"show", "show FILE|RUN", "draw the shape", 1, 1, "set|start|plugin|png|colour|view|grid", app_show,
+     NULL},
     {"new", "new [TEMPLATE [FILE]]",
-     "write a commented problem file to begin with; alone: list the templates", 0, 2, "", app_new},
+     "write a commented problem file to begin with; alone: list the templates", 0, 2, "", app_new, NULL},
     {"list", "list measures|curves|moves|algorithms|formats|units|templates", "what problem files may use", 0,
-     1, "plugin|json", app_list},
+     1, "plugin|json", app_list, NULL},
     {"schema", "schema", "the JSON Schema of problem files, for editors", 0, 0, "plugin|reference",
-     app_schema},
+     app_schema, NULL},
     {"explain", "explain WORD",
      "what a word means: a key, measure, function, unit, format, or why a candidate failed", 1, 1, "plugin",
-     app_explain},
-    {"version", "version", "the version of vesica and of what it is built on", 0, 0, "json", app_version},
-    {"help", "help [COMMAND]", "this text, or one on a command", 0, 1, "", app_help},
+     app_explain, NULL},
+    {"version", "version", "the version of vesica and of what it is built on", 0, 0, "json", app_version,
+     NULL},
+    {"help", "help [COMMAND]", "this text, or one on a command", 0, 1, "", app_help, NULL},
     {0},
 };

@@ -36,6 +36,7 @@ void app_help_command(const app_command *command, FILE *out)
             command->about);
     if (*command->options) fputc('\n', out);
     app_options_list(command, out);
+    if (command->more) fprintf(out, "\n%s\n", command->more);
 }
 
 int app_help(app *a)

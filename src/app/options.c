@@ -188,7 +188,7 @@ static const option table[] = {
     {"json", NULL, "one JSON object on stdout", take_json},
     {"plugin", "FILE", "load measures from a shared object; may be repeated", take_plugin},
     {"patch", "NAME", "which patch (needed when there are several)", take_patch},
-    {"points", "FILE", "CSV of u, v; - is stdin", take_points},
+    {"points", "FILE", "CSV of u (0 to 1), v (0 to 2 pi), whatever `domain` says; - is stdin", take_points},
     {"spine", "N", "N points of the spine, the mean over v: CSV u, x, y, z", take_spine},
     {"to", "FORMAT[,FORMAT]", "see vesica list formats", take_to},
     {"unit", "UNIT", "of the lengths in the files: mm, cm ...; m, unless said, whatever the problem file writes", take_unit},

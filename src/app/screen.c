@@ -79,7 +79,7 @@ static void goal(const ves_problem *problem, const ves_design *best, const ves_d
     if (!problem->objective) return;
     fprintf(out, "  %s %s   ", problem->maximize ? "maximize" : "minimize", problem->objective_text);
     if (isnan(best->objective))
-        fputs("no number", out);
+        fputs("not measured", out);
     else
         fprintf(out, "%s%s%s", app_screen_number(best->objective / shown->factor, a), *shown->unit ? " " : "",
                 shown->unit);
@@ -133,7 +133,7 @@ static const char *remark(const ves_variable *v, double x, bool idle)
 void app_screen_variables(const ves_run *run, FILE *out)
 {
     const ves_problem *p = run->problem;
-    bool best = run->searched;
+    bool best = run->searched && run->any;
     app_table t = {.align = best ? "lrrll" : "lrll"};
     char low[32], high[32];
     if (!p->variables) return;
@@ -328,7 +328,7 @@ static void conclusion(const ves_run *run, FILE *out)
 void app_screen_run(const ves_run *run, FILE *out)
 {
     const ves_problem *p = run->problem;
-    const ves_design *start = run->searched ? &run->start : NULL;
+    const ves_design *start = run->searched && run->any ? &run->start : NULL;
     goal(p, &run->best, start, out);
     constraints(p, &run->best, out);
     app_screen_variables(run, out);

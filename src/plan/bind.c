@@ -37,20 +37,6 @@ const ves_limit *ves_plan_limit(const ves_plan *plan)
     return NULL;
 }
 
-void ves_plan_outside(const ves_plan *plan, const char *what, ves_diag *diag)
-{
-    const ves_problem *p = plan->problem;
-    const ves_limit *l = ves_plan_limit(plan);
-    char limit[96], got[32], root[32];
-    if (!l) return;
-    ves_limit_text(l->low, l->high, limit);
-    ves_number_text(plan->block[l->number], got);
-    if (p->solve) ves_number_text(plan->block[p->variables], root);
-    ves_diag_add(diag, VES_WARNING, VES_OUTSIDE, l->mark, "%s: \"%s\" must be %s, got %s%s%s%s%s", what,
-                 l->key, limit, got, p->solve ? ", with " : "", p->solve ? p->solve->name : "",
-                 p->solve ? " = " : "", p->solve ? root : "");
-}
-
 void ves_plan_bind_patches(ves_plan *plan)
 {
     for (int k = 0; k < plan->problem->patches; k++) ves_patch_bind(plan->patch[k], &plan->bound);

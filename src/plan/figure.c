@@ -300,11 +300,17 @@ ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_
 {
     *figure = NULL;
     ves_status status = ves_plan_forward(plan, x, 0, PROGRAM_JUDGE, false);
-    bool none = status == VES_NO_ROOT || status == VES_NO_BRACKET;
-    if (status > VES_OK && !none)
-        ves_diag_add(diag, VES_WARNING, status, (ves_mark){0}, "the shape is drawn although %s",
-                     ves_status_text(status));
-    if (status >= VES_OK && !none) status = ves_plan_figure_make(plan, nu, nv, figure);
+    bool drawn = status >= VES_OK && status != VES_NO_ROOT && status != VES_NO_BRACKET;
+    ves_status wrong = drawn ? status : VES_OK;
+    if (drawn) status = ves_plan_figure_make(plan, nu, nv, figure);
+    if (*figure && !ves_plan_figure_finite(plan, *figure, "there is no shape to show", diag)) {
+        ves_figure_destroy(*figure);
+        *figure = NULL;
+        return VES_NO_POINT;
+    }
+    if (wrong != VES_OK && *figure)
+        ves_diag_add(diag, VES_WARNING, wrong, (ves_mark){0}, "the shape is drawn although %s",
+                     ves_status_text(wrong));
     if (status == VES_OK) return VES_OK;
     return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "there is no shape to show: %s",
                         ves_status_text(status));

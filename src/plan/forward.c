@@ -20,9 +20,10 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
         ves_status status =
             p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]);
         /* a plugin's own word for "cannot be measured"; only the plan cuts */
-        if (status > VES_NO_BRACKET || status == VES_CUT) status = VES_NO_NUMBER;
+        if (status > VES_NO_POINT || status == VES_CUT) status = VES_NO_NUMBER;
+        if (status == VES_OK && !isfinite(plan->value[m])) status = VES_NO_NUMBER;
+        if (status == VES_NO_NUMBER) plan->numberless = m;
         VES_TRY(status);
-        if (!isfinite(plan->value[m])) return VES_NO_NUMBER;
     }
     return VES_OK;
 }
@@ -58,6 +59,7 @@ static ves_status scale(ves_plan *plan, int index, bool gradient)
 
 ves_status ves_plan_run(ves_plan *plan, int index, plan_program which, bool gradient)
 {
+    plan->numberless = -1;
     if (ves_plan_limit(plan)) return VES_OUTSIDE;
     VES_TRY(scale(plan, index, gradient));
     VES_TRY(sample(plan, index, which, gradient));
@@ -87,7 +89,7 @@ static ves_status bracket_end(ves_plan *plan, const double *x, int index, bool u
         ves_status status = residual(plan, x, index, *h, value);
         if (status <= VES_OK) return status;
     }
-    /* ves_plan_outside is to tell of the end that the file gives */
+    /* ves_plan_why is to tell of the end that the file gives */
     ves_plan_bind(plan, x, upper ? s->hi : s->lo);
     return ves_plan_limit(plan) ? VES_OUTSIDE : VES_NO_BRACKET;
 }

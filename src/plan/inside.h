@@ -68,7 +68,8 @@ typedef struct plan_sheet {
     bool pole[2];
     plan_seam ends;  /* X(1, v) = X(0, shift + v), reversed: X(0, shift - v) */
     plan_seam sides; /* X(u, 2 pi) = X(u, 0), reversed: X(1 - u, 0) */
-    double gap;      /* between X(u, 2 pi) and X(u, 0); NaN: some point is no number */
+    double gap;      /* between X(u, 2 pi) and X(u, 0), along the coordinates that are numbers */
+    bool pointless;  /* some point there is no number */
     bool gaping;     /* it is more than rounding */
 } plan_sheet;
 
@@ -98,6 +99,7 @@ struct ves_plan {
     bool *cheap;            /* [constraints] reads no dear measure */
     bool any_dear;          /* some judged measure is dear */
     double cutoff;          /* of the question at hand */
+    int numberless;         /* the measure that gave no number in the last program, or -1 */
     double similarity;
     double *formula_room;
     double *measure_adjoint;
@@ -158,6 +160,9 @@ ves_status ves_plan_follow(ves_plan *plan, int level, int outputs);
 /* figure.c, after plan_forward; proof.c: does the shape of the last evaluation cross itself? */
 ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **figure);
 ves_status ves_plan_crosses(ves_plan *plan);
+
+/* why.c: is every point of the figure finite? Else an error "what: ...". */
+bool ves_plan_figure_finite(const ves_plan *plan, const ves_figure *figure, const char *what, ves_diag *diag);
 
 /* validity.c */
 ves_status ves_plan_validity(const ves_plan *plan, int level);

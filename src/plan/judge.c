@@ -184,15 +184,18 @@ static void tell(ves_plan *plan, ves_design *design)
     design->feasible = true;
     for (int k = 0; k < p->constraints; k++) {
         const ves_constraint_def *c = &p->constraint[k];
-        double v = violation(c, excess(plan, k));
+        double e = excess(plan, k), v = isfinite(e) ? violation(c, e) : NAN;
         plan->sides[k] =
             (ves_sides){ves_plan_formula(plan, c->left), ves_plan_formula(plan, c->right), v, v <= c->within};
+        if (isnan(v)) design->status = VES_NO_NUMBER; /* as in values(): the search does not accept it */
         design->violation = fmax(design->violation, v);
         design->feasible = design->feasible && plan->sides[k].holds;
     }
-    if (!p->objective) return;
-    design->objective = ves_plan_formula(plan, p->objective);
-    if (!isfinite(design->objective)) design->status = VES_NO_NUMBER;
+    if (p->objective) design->objective = ves_plan_formula(plan, p->objective);
+    if (p->objective && !isfinite(design->objective)) design->status = VES_NO_NUMBER;
+    if (design->status == VES_OK) return;
+    design->objective = design->violation = NAN;
+    design->feasible = false;
 }
 
 ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_design *design)

@@ -1,4 +1,5 @@
 /* Levels: the sites that all measures of a problem together read on one grid, and which measure reads which. */
+#include "base/vector.h"
 #include "plan/inside.h"
 
 static int patches_of(const ves_problem *p, const ves_measure_def *m, int index)
@@ -174,6 +175,7 @@ static void validity_needs(const ves_problem *p, plan_level *l)
         unsigned wanted = all;
         if (p->validity.least_radius >= 0) wanted |= VES_X;
         if (p->validity.monotone >= 0) wanted |= VES_XU;
+        if (p->patch[k].kind == VES_PATCH_FORMULA) wanted |= VES_X; /* it may have no value */
         l->site[k].needs[PROGRAM_JUDGE] |= wanted;
         l->site[k].needs[PROGRAM_ALL] |= wanted;
         l->site[k].wants |= wanted;
@@ -191,11 +193,34 @@ void ves_plan_level_face(ves_plan *plan, int index)
     }
 }
 
+static ves_status edge_add(ves_plan *plan, plan_level *l, const plan_site *edge, const ves_grid *along)
+{
+    plan_site *s = &l->site[l->sites++];
+    *s = *edge;
+    s->needs[PROGRAM_JUDGE] = s->needs[PROGRAM_ALL] = s->wants = VES_X;
+    return ves_grid_given(along->nu, along->u, along->nv, along->v, along->periodic, &plan->arena, &s->grid);
+}
+
+/* A formula may have no value on an edge alone, which is no node: log(u). */
+static ves_status edges_add(ves_plan *plan, plan_level *l, int patch)
+{
+    double ends[2] = {0, 1}, sides[2] = {0, VES_TWO_PI};
+    const ves_grid nodes = l->site[patch].grid;
+    const plan_site edge = {.patch = patch, .curve = -1, .samples.site = VES_SITE_SURFACE};
+    if (plan->problem->patch[patch].kind != VES_PATCH_FORMULA) return VES_OK;
+    ves_grid across = nodes, along = nodes;
+    across.nu = 2, across.u = ends;
+    along.nv = 2, along.v = sides;
+    VES_TRY(edge_add(plan, l, &edge, &across));
+    return nodes.periodic ? VES_OK : edge_add(plan, l, &edge, &along);
+}
+
 ves_status ves_plan_level_build(ves_plan *plan, int index)
 {
     const ves_problem *p = plan->problem;
     plan_level *l = &plan->level[index];
-    int most = p->patches + p->shape.caps;
+    enum { EDGES = 2 };
+    int most = (1 + EDGES) * p->patches + p->shape.caps;
     for (int m = 0; m < p->measures; m++)
         most += references(&p->measure[m]) + p->measure[m].measure->looks * surfaces_of(p, &p->measure[m]);
     l->site = ves_arena_take(&plan->arena, (size_t)most, sizeof *l->site);
@@ -210,6 +235,7 @@ ves_status ves_plan_level_build(ves_plan *plan, int index)
     }
     for (int m = 0; m < p->measures; m++) VES_TRY(instance_build(plan, l, m));
     validity_needs(p, l);
+    for (int k = 0; k < p->patches; k++) VES_TRY(edges_add(plan, l, k));
     for (int k = 0; k < p->shape.caps && p->shape.closed; k++) { /* the shape must not turn inside out */
         int cap;
         VES_TRY(cap_add(plan, l, k, &cap));

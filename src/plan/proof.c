@@ -21,7 +21,8 @@ ves_status ves_plan_crosses(ves_plan *plan)
     bool crosses = false;
     if (plan->branched) return VES_OK;
     VES_TRY(ves_plan_figure_make(plan, ALONG, AROUND, &figure));
-    ves_status status = ves_figure_mesh(figure, true, &mesh);
+    ves_status status = ves_plan_figure_finite(plan, figure, "", NULL) ? VES_OK : VES_NO_POINT;
+    if (status == VES_OK) status = ves_figure_mesh(figure, true, &mesh);
     if (status == VES_OK) status = ves_bridge_crosses(&mesh, &crosses, message);
     if (status == VES_FAULT) status = VES_TOUCHES; /* no manifold */
     if (status == VES_OK && crosses) status = VES_SELF_INTERSECTS;

@@ -35,8 +35,9 @@ static const double *points(const look *l, int count, const double *u, double *v
     return l->out;
 }
 
-/* The largest distance between point k and point LOOKS + k. NaN: some point is no number. */
-static double apart(const look *l, const double u[2 * LOOKS], double v[2 * LOOKS])
+/* The largest distance between point k and point LOOKS + k. NaN: some point is no number; or `known`: along
+ * the coordinates that are. */
+static double apart_along(const look *l, bool known, const double u[2 * LOOKS], double v[2 * LOOKS])
 {
     const double *X = points(l, 2 * LOOKS, u, v);
     double most = 0;
@@ -44,12 +45,17 @@ static double apart(const look *l, const double u[2 * LOOKS], double v[2 * LOOKS
         double square = 0;
         for (int c = 0; c < 3; c++) {
             double d = X[c * 2 * LOOKS + k] - X[c * 2 * LOOKS + LOOKS + k];
-            square += d * d;
+            if (!known || isfinite(d)) square += d * d;
         }
         if (isnan(square)) return NAN;
         most = fmax(most, square);
     }
     return sqrt(most);
+}
+
+static double apart(const look *l, const double u[2 * LOOKS], double v[2 * LOOKS])
+{
+    return apart_along(l, false, u, v);
 }
 
 /* Places along an edge that no symmetry of a formula prefers. */
@@ -70,7 +76,7 @@ static bool ends_meet(const look *l, bool reversed, double shift)
 }
 
 /* How far X(u, 2 pi) is from X(u, 0), reversed: from X(1 - u, 0). */
-static double sides_apart(const look *l, bool reversed)
+static double sides_apart(const look *l, bool reversed, bool known)
 {
     double u[2 * LOOKS], v[2 * LOOKS];
     look plain = *l;
@@ -79,7 +85,7 @@ static double sides_apart(const look *l, bool reversed)
         u[k] = place(k), v[k] = VES_TWO_PI;
         u[LOOKS + k] = reversed ? 1 - u[k] : u[k], v[LOOKS + k] = 0;
     }
-    return apart(&plain, u, v);
+    return apart_along(&plain, known, u, v);
 }
 
 static bool end_is_point(const look *l, int end)
@@ -104,7 +110,10 @@ static double size_of(const look *l)
     }
     const double *X = points(l, COUNT, u, v);
     for (int c = 0; c < 3; c++)
-        for (int k = 0; k < COUNT; k++) size = fmax(size, fabs(X[c * COUNT + k] - X[c * COUNT]));
+        for (int k = 0; k < COUNT; k++) {
+            double d = fabs(X[c * COUNT + k] - X[c * COUNT]);
+            if (isfinite(d)) size = fmax(size, d);
+        }
     return size;
 }
 
@@ -157,10 +166,11 @@ static bool turn_find(const look *l, plan_seam *seam)
 
 static void sides_find(const look *l, plan_sheet *found)
 {
-    found->gap = sides_apart(l, false);
+    found->gap = sides_apart(l, false, true);
     found->gaping = found->gap > l->near;
+    found->pointless = isnan(sides_apart(l, false, false));
     for (int reversed = 0; reversed < 2 && !found->sides.joined; reversed++)
-        if (sides_apart(l, reversed) <= l->near)
+        if (sides_apart(l, reversed, false) <= l->near)
             found->sides = (plan_seam){.joined = true, .reversed = reversed};
 }
 
@@ -214,7 +224,7 @@ static ves_status look_elsewhere(ves_plan *plan, int patch, int design, double *
     if (p->solve) unknown = p->solve->lo + (p->solve->hi - p->solve->lo) * ves_random_uniform(&random);
     ves_plan_bind(plan, x, unknown);
     VES_TRY(ves_sheet_look(plan, patch, &other));
-    if (isnan(other.gap)) return VES_OK;
+    if (other.pointless) return VES_OK;
     for (int end = 0; end < 2; end++) sheet->pole[end] = sheet->pole[end] && other.pole[end];
     seam_agree(&sheet->sides, &other.sides);
     seam_agree(&sheet->ends, &other.ends);

@@ -1,4 +1,5 @@
 /* Sites: sampling a shape at the places that level.c has laid out, and the transpose of it. */
+#include "base/vector.h"
 #include "plan/inside.h"
 
 #include <math.h>
@@ -84,7 +85,13 @@ ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind)
                        .u = s->grid.u,
                        .v = s->grid.v,
                        .weight = s->grid.weight};
+    m->u_range[1] = 1, m->v_range[1] = VES_TWO_PI;
     if (s->patch >= 0) {
+        const ves_patch_def *d = &plan->problem->patch[s->patch];
+        if (d->kind == VES_PATCH_FORMULA) {
+            memcpy(m->u_range, d->u_range, sizeof d->u_range);
+            memcpy(m->v_range, d->v_range, sizeof d->v_range);
+        }
         s->varies = ves_patch_varies(plan->patch[s->patch]) || plan->problem->scale;
         VES_TRY(
             ves_chart_create(plan->patch[s->patch], &s->grid, fields_for(s->wants), &plan->arena, &s->chart));
@@ -193,13 +200,30 @@ static ves_status forms_sample(ves_plan *plan, plan_site *s, const ves_tile *til
     return ves_forms_eval(tile, field, s->side, curvature, &rows);
 }
 
-/* A site without forms is looked at for numbers here; with forms ves_forms_eval does. */
+/* The curves of a PDE patch, or the points of a sheet, are in all its fields: one that is no number is seen
+ * in the forms. A formula may have it in X alone (log(-1) + u), and is looked at there. */
+static bool looks_at_points(const ves_plan *plan, const plan_site *s, unsigned needs)
+{
+    bool drawn = plan->problem->patch[s->patch].kind == VES_PATCH_FORMULA;
+    return needs & VES_X && (drawn || !(needs & FORM_NEEDS));
+}
+
 static bool finite_points(const plan_site *s)
 {
     double sum = 0;
     for (int c = 0; c < 3; c++)
         for (int k = 0; k < s->grid.count; k++) sum += s->samples.X[c][k];
     return isfinite(sum);
+}
+
+/* Why a tile has no forms: it has no points, or no tangent plane. */
+static ves_status formless(const ves_tile *tile, const ves_tile_planes *field)
+{
+    int f = tile->fields & 1u << VES_FIELD_X ? VES_FIELD_X : VES_FIELD_U;
+    double sum = 0;
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < tile->rows * VES_LANES; k++) sum += field->at[f * 3 + c][k];
+    return isfinite(sum) ? VES_DEGENERATE : VES_NO_POINT;
 }
 
 /* What a gradient needs of a chart is prepared with it, but of a look, which moves, when it has come to rest. */
@@ -217,10 +241,10 @@ static ves_status site_fill(ves_plan *plan, plan_site *s, unsigned needs, bool g
         fields_store(tile, needs, field, &s->samples);
         if (needs & FORM_NEEDS) {
             ves_status status = forms_sample(plan, s, tile, field, needs);
-            if (status != VES_OK) worst = status;
+            if (status != VES_OK) worst = formless(tile, field);
         }
     }
-    if (!(needs & FORM_NEEDS) && needs & VES_X && !finite_points(s)) return VES_DEGENERATE;
+    if (looks_at_points(plan, s, needs) && !finite_points(s)) return VES_NO_POINT;
     return worst;
 }
 

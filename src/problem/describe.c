@@ -219,6 +219,10 @@ const char *ves_describe_status(ves_status status)
                "measured,\n      or narrow the ranges of the variables.";
     case VES_NO_NUMBER:
         return "A formula or a measure gave infinity, 0/0 or the root of a negative number.";
+    case VES_NO_POINT:
+        return "A formula of a curve, a surface or a number that moves them gave infinity, 0/0 or the root "
+               "of a "
+               "negative\n      number there.";
     case VES_SELF_INTERSECTS:
     case VES_TOUCHES:
         return "Looked for at each best, not at every candidate; validity: {self_intersection: never} leaves "

@@ -182,6 +182,7 @@ static void read_objective(scope *s, const ves_fields *root)
     if (!node || !ves_reader_word(s->reader, node, "formula of measures")) return;
     problem->objective = ves_reader_formula(s->reader, ves_text_whole(node), s->symbol, s->symbols);
     problem->objective_text = node->text;
+    problem->objective_mark = ves_reader_mark(s->reader, node);
     problem->maximize = !low;
     if (problem->objective && !depends(s, problem->objective))
         ves_reader_error(s->reader, VES_RANGE, node, "the objective depends on no measure and no variable");

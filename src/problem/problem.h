@@ -191,6 +191,7 @@ struct ves_problem {
     const ves_scale *scale;       /* NULL: none */
     const ves_formula *objective; /* of slots and measures; NULL: nothing to optimise */
     const char *objective_text;
+    ves_mark objective_mark;
     ves_shown objective_shown;
     bool maximize;
     const ves_constraint_def *constraint;

@@ -85,7 +85,7 @@ static const ves_entry patch_keys[] = {
     {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved exactly; 0: all that matter at the start, at least 40; the rest goes into the remainder"}, "modes: 8", NULL},
     {{"surface", KIND(VES_MAP), .about = "instead of operator and conditions: the surface itself; edges that lie on each other are joined"}, "surface: {formula: [u, v, \"u*v\"]}", surface_keys},
     {{"periodic", VES_FLAG, .fallback = 1, .about = "the surface closes in v (only with surface)"}, "periodic: false", NULL},
-    {{"domain", KIND(VES_MAP), .about = "ranges of u and v (only with surface)"}, "domain: {u: [0, 1], v: [0, 2*pi]}", domain_keys},
+    {{"domain", KIND(VES_MAP), .about = "what u and v run over in the formulas of the surface, and of integral, min and max over it; places, vesica sample and files count u 0 to 1 and v 0 to 2*pi whatever stands here (only with surface: formula)"}, "domain: {u: [0, 1], v: [0, 2*pi]}", domain_keys},
     LATER("spine", "a centre line that is given"),
     LATER("remainder", "a remainder with its own decay"),
     LATER("sections", "patches through sections of a family"),

@@ -92,8 +92,10 @@ ves_status ves_points_read(FILE *in, const char *name, ves_points *p, ves_diag *
             return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, nowhere,
                                 "%s:%d: two numbers u,v are needed, found \"%s\"", name, number, shown);
         if (!(u >= 0 && u <= 1))
-            return ves_diag_add(diag, VES_ERROR, VES_RANGE, nowhere,
-                                "%s:%d: u = %g lies outside the patch (0 to 1)", name, number, u);
+            return ves_diag_add(
+                diag, VES_ERROR, VES_RANGE, nowhere,
+                "%s:%d: u = %g lies outside the patch (0 to 1); these u and v are not those of a domain",
+                name, number, u);
         if (!keep(p, u, v))
             return ves_diag_add(diag, VES_ERROR, VES_MEMORY, nowhere, "%s", ves_status_text(VES_MEMORY));
     }

@@ -156,10 +156,7 @@ static ves_status start_measure(study *s)
     if (status != VES_OK) {
         run->change = NAN;
         snprintf(text, sizeof text, "the start design cannot be measured: %s", ves_status_text(status));
-        if (status == VES_OUTSIDE)
-            ves_plan_outside(s->plan[0], "the start design cannot be measured", s->diag);
-        else
-            ves_diag_add(s->diag, VES_WARNING, status, (ves_mark){0}, "%s", text);
+        ves_plan_why(s->plan[0], status, "the start design cannot be measured", s->diag);
         return run->searched ? VES_OK : keep_note(s, text); /* a search notes it itself */
     }
     if (!(run->change > UNSETTLED)) return VES_OK;
@@ -348,11 +345,12 @@ static ves_status result_take(study *s, const ves_search_result *r)
         return complain(s->diag, VES_MEMORY);
     double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
     if (!x) return complain(s->diag, VES_MEMORY);
-    memcpy(x, r->x, sizeof *x * (size_t)r->n);
+    const double *from = r->any ? r->x : run->start.x; /* or no point is better than another */
+    memcpy(x, from, sizeof *x * (size_t)r->n);
     rest(s, x);
     VES_TRY(measure(s, x, 1, &run->finer));
     VES_TRY(measure(s, x, 0, &run->best));
-    run->feasible = r->feasible && run->best.status == VES_OK;
+    run->feasible = r->any && r->feasible && run->best.status == VES_OK;
     return VES_OK;
 }
 
@@ -450,7 +448,8 @@ static ves_status prove(study *s)
     run->proof = verdict.status;
     char text[SENTENCE];
     snprintf(text, sizeof text, "the design did not pass its checks: %s", ves_status_text(verdict.status));
-    return warn(s, verdict.status, text);
+    ves_plan_why(s->plan[0], verdict.status, "the design did not pass its checks", s->diag);
+    return keep_note(s, text);
 }
 
 static ves_status once(study *s)
