@@ -6,7 +6,7 @@
 /* One polishing stage: a descent from each of the ends of the stage before, each a task of its own. A descent
  * that ends on a saddle goes on from both sides of it. */
 
-enum { ESCAPES = 4, ENDS = ESCAPES + 1, LEAST = 10 };
+enum { ESCAPES = 4, WAITING = ESCAPES + 2, ENDS = 2 * ESCAPES + 1, LEAST = 10 };
 
 typedef struct task {
     ves_descent descent;
@@ -14,13 +14,15 @@ typedef struct task {
     ves_saddle saddle;
     const ves_point *start;
     int waiting; /* points to descend from */
-    ves_point wait[ENDS + 1];
+    ves_point wait[WAITING];
+    int above[WAITING]; /* the saddle that each has left: its place among the ends; -1: none */
     int ends;
-    ves_end end[ENDS + 1];
+    ves_end end[ENDS];
     int escapes, halves;      /* saddles; those that were left to one side only */
     double curvature, height; /* of the first saddle met */
     int mostly;
-    bool stuck; /* a saddle that could not be left */
+    int edges, edge; /* ends beside what cannot be measured; along which variable, at the first */
+    bool running;    /* at one of them the value has not stopped falling */
     bool memory;
 } task;
 
@@ -37,16 +39,17 @@ static bool task_create(task *t, ves_session *session, int index, const ves_poli
     t->start = &session->end[index].point;
     t->checks = !options->stay && t->descent.recipe.gradient && session->problem->gradients &&
                 session->n <= VES_SADDLE_MOST;
-    for (int k = 0; k < ENDS + 1; k++) {
+    for (int k = 0; k < WAITING; k++)
         if (!ves_point_create(&session->arena, session->n, session->m, &t->wait[k])) return false;
+    for (int k = 0; k < ENDS; k++)
         if (!ves_point_create(&session->arena, session->n, session->m, &t->end[k].point)) return false;
-    }
     return !t->checks || ves_saddle_create(&t->saddle, session);
 }
 
-/* Steps off the saddle; what lies lower waits for its own descent. Returns whether there was a way. */
-static ves_status leave(task *t, const ves_point *saddle, bool *left)
+/* Steps off the saddle; what lies lower waits for its own descent. */
+static ves_status leave(task *t, int at)
 {
+    const ves_point *saddle = &t->end[at].point;
     ves_point *const side[2] = {&t->wait[t->waiting], &t->wait[t->waiting + 1]};
     bool found[2];
     if (!t->escapes++) {
@@ -60,31 +63,47 @@ static ves_status leave(task *t, const ves_point *saddle, bool *left)
         t->wait[t->waiting] = *side[1];
         t->wait[t->waiting + 1] = moved;
     }
-    t->waiting += found[0] + found[1];
+    for (int k = found[0] + found[1]; k; k--) t->above[t->waiting++] = at;
     t->halves += found[0] != found[1];
-    *left = found[0] || found[1];
     return status;
+}
+
+/* Whether the end of a descent is worth leaving a saddle for: feasible, and lower by more than descents are
+ * exact. */
+static bool lower(const task *t, const ves_verdict *end, const ves_verdict *saddle)
+{
+    const ves_session *session = t->descent.session;
+    if (end->violation > session->tolerance) return false;
+    if (!ves_session_better_at(session, t->descent.price, end, saddle)) return false;
+    double size = fmax(fabs(saddle->value), 1e-6 * t->descent.first_scale);
+    return saddle->violation > session->tolerance ||
+           saddle->value - end->value > 10 * t->descent.options->f_tolerance * size;
+}
+
+static void note_edge(task *t)
+{
+    if (!t->edges++) t->edge = t->saddle.edge;
+    if (!t->running && t->saddle.running) {
+        t->running = true;
+        t->edge = t->saddle.edge;
+    }
 }
 
 /* One descent and what follows from it. */
 static ves_status advance(task *t)
 {
     ves_session *session = t->descent.session;
-    ves_end *end = &t->end[t->ends++];
-    ves_point *from = &t->wait[--t->waiting];
-    end->saddle = false;
-    VES_TRY(ves_descent_run(&t->descent, from, &end->point));
+    int at = t->ends++, from = --t->waiting, above = t->above[from];
+    ves_end *end = &t->end[at];
+    end->saddle = end->pass = false;
+    ves_status status = ves_descent_run(&t->descent, &t->wait[from], &end->point);
+    if (above >= 0 && lower(t, &end->point.verdict, &t->end[above].point.verdict)) t->end[above].pass = true;
+    VES_TRY(status);
     long cost = 2L * session->n + 20;
     if (!t->checks || t->descent.budget - t->descent.used < cost) return VES_OK;
     VES_TRY(ves_saddle_check(&t->saddle, &t->descent, &end->point, &end->saddle));
-    if (!end->saddle) return VES_OK;
-    bool left = false;
-    if (t->escapes < ESCAPES) VES_TRY(leave(t, &end->point, &left));
-    if (left)
-        t->ends--; /* it was a pass, not an end */
-    else
-        t->stuck = true;
-    return VES_OK;
+    if (t->saddle.edge >= 0) note_edge(t);
+    return end->saddle && t->escapes < ESCAPES ? leave(t, at) : VES_OK;
 }
 
 static void run(void *data, int worker, int index)
@@ -93,6 +112,7 @@ static void run(void *data, int worker, int index)
     task *t = &p->task[p->first + index];
     t->descent.asker.worker = worker;
     ves_point_copy(&t->wait[0], t->start, p->session->n, p->session->m);
+    t->above[0] = -1;
     t->waiting = 1;
     while (t->waiting) {
         ves_status status = advance(t);
@@ -109,15 +129,23 @@ static const char *name_variable(ves_session *session, int i)
     return text ? text : "x";
 }
 
+/* Saddles from which no way led lower: more were met than could be left, or what seemed lower was not. */
+static bool stuck(const task *t)
+{
+    for (int e = 0; e < t->ends; e++)
+        if (t->end[e].saddle && !t->end[e].pass) return true;
+    return false;
+}
+
 static void note_saddles(polish *p)
 {
     const task *first = NULL;
-    int met = 0, stuck = 0, saddles = 0, halves = 0;
+    int met = 0, left = 1, saddles = 0, halves = 0;
     for (int k = 0; k < p->tasks; k++) {
         if (!p->task[k].escapes) continue;
         if (!first) first = &p->task[k];
         met++;
-        stuck += p->task[k].stuck;
+        left = left && !stuck(&p->task[k]);
         saddles += p->task[k].escapes;
         halves += p->task[k].halves;
     }
@@ -130,7 +158,36 @@ static void note_saddles(polish *p)
                      "(eigenvalue %.3g, "
                      "mostly %s); %s",
                      met, p->tasks, p->tasks == 1 ? "" : "es", first->height, first->curvature,
-                     name_variable(p->session, first->mostly), stuck ? "not every one could be left" : way);
+                     name_variable(p->session, first->mostly), left ? way : "not every one could be left");
+}
+
+/* Beside an edge of what can be measured nothing is said of saddles; a value that runs into it deserves a
+ * sentence. */
+static void note_edges(polish *p)
+{
+    const task *first = NULL;
+    int met = 0;
+    for (int k = 0; k < p->tasks; k++) {
+        const task *t = &p->task[k];
+        if (!t->edges) continue;
+        met++;
+        if (!first || (t->running && !first->running)) first = t;
+    }
+    if (!met) return;
+    ves_session_note(
+        p->session,
+        "%d of %d polish%s ended beside designs that cannot be measured (along %s): whether at a "
+        "saddle could not be judged%s",
+        met, p->tasks, p->tasks == 1 ? "" : "es", name_variable(p->session, first->edge),
+        first->running ? ", and the value runs into that edge: the optimum may lie beyond it" : "");
+}
+
+static const ves_point *best_end(const ves_session *session, const task *t)
+{
+    const ves_point *best = &t->end[0].point;
+    for (int e = 1; e < t->ends; e++)
+        if (ves_session_better(session, &t->end[e].point.verdict, &best->verdict)) best = &t->end[e].point;
+    return best;
 }
 
 /* Where the gradient failed first, and how often. */
@@ -165,11 +222,23 @@ static void tell_stop(polish *p, const ves_polish *options)
     const task *best = &p->task[0];
     for (int k = 1; k < p->tasks; k++) {
         const task *t = &p->task[k];
-        if (ves_session_better(session, &t->end[0].point.verdict, &best->end[0].point.verdict)) best = t;
+        const ves_verdict *verdict = &best_end(session, t)->verdict;
+        if (ves_session_better(session, verdict, &best_end(session, best)->verdict)) best = t;
     }
     const ves_descent *descent = &best->descent;
     ves_session_stop(session, ves_descent_spent(descent) ? VES_ENDED_BUDGET : VES_ENDED_DONE, "%s: %s",
                      options->algorithm, ves_descent_sentence(descent));
+}
+
+/* A saddle that was left is no end, once something better is proved: what lies lower may yet be refused. */
+static void forget_passes(const ves_session *session, ves_end *end, int *count)
+{
+    int kept = 0;
+    for (int k = 0; k < *count; k++) {
+        bool outdone = ves_session_better(session, &session->best.verdict, &end[k].point.verdict);
+        if (!end[k].pass || !outdone) end[kept++] = end[k];
+    }
+    *count = kept;
 }
 
 static ves_status collect(polish *p)
@@ -186,14 +255,17 @@ static ves_status collect(polish *p)
         for (int e = 0; e < p->task[k].ends; e++, at++) {
             ves_point_copy(&end[at].point, &p->task[k].end[e].point, session->n, session->m);
             end[at].saddle = p->task[k].end[e].saddle;
+            end[at].pass = p->task[k].end[e].pass;
         }
     ves_session_sort(session, end, count);
     for (int k = 0; k < count; k++) point[k] = &end[k].point;
+    VES_TRY(ves_session_offer(session, point, count, p->proofs, refused));
+    forget_passes(session, end, &count);
     if (count) {
         session->end = end;
         session->ends = count;
     }
-    return ves_session_offer(session, point, count, p->proofs, refused);
+    return VES_OK;
 }
 
 /* Tasks run in waves of as many as there are workers, so that progress is told between; they do not depend on
@@ -250,6 +322,7 @@ ves_status ves_polish_run(ves_session *session, const ves_polish *options, long 
     if (status == VES_OK) {
         tell_stop(&p, options);
         note_saddles(&p);
+        note_edges(&p);
         status = note_mended(&p);
         if (status == VES_OK) status = collect(&p);
     }

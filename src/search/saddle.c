@@ -16,6 +16,9 @@ static const double step = 2e-5;       /* in u: truncation ~ 1e-10, noise of a g
 static const double near_wall = 1e-9;  /* in u */
 static const double near_limit = 1e-6; /* scaled excess of an active constraint */
 static const double clear = 1e-5;      /* a negative eigenvalue counts beyond this part of the largest */
+static const double sideways =
+    1e-6;                         /* of a unit direction, across a wall or a constraint: it runs along it */
+static const double steep = 1e-3; /* of the slope at the start: no descent stops there of itself */
 
 bool ves_saddle_create(ves_saddle *s, ves_session *session)
 {
@@ -30,8 +33,10 @@ bool ves_saddle_create(ves_saddle *s, ves_session *session)
         if (!(*rows[k] = ves_arena_take(arena, n, sizeof(double)))) return false;
     s->multiplier = ves_arena_take(arena, m, sizeof(double));
     s->row = ves_arena_take(arena, m, sizeof(int));
+    s->touched = ves_arena_take(arena, m, sizeof(int));
+    s->touching = ves_arena_take(arena, m * n, sizeof(double));
     s->free = ves_arena_take(arena, n, sizeof(int));
-    return s->multiplier && s->row && s->free;
+    return s->multiplier && s->row && s->touched && s->touching && s->free;
 }
 
 static double dot(int n, const double *a, const double *b)
@@ -97,7 +102,8 @@ static void solve(ves_saddle *s, const ves_descent *d)
     }
 }
 
-/* The inequality that pulls hardest the wrong way is not active; returns its place, or -1. */
+/* The inequality that pulls hardest the wrong way is not active; returns its place among the active ones, or
+ * -1. */
 static int wrong(const ves_saddle *s, const ves_descent *d)
 {
     int worst = -1;
@@ -109,17 +115,26 @@ static int wrong(const ves_saddle *s, const ves_descent *d)
     return worst;
 }
 
+/* A row that depended on one that pulls the wrong way comes back when that one goes: of two opposite
+ * inequalities, an equation in two words, one always stays. */
 static void multipliers(ves_saddle *s, const ves_descent *d)
 {
     int rows = 0;
+    double limit = fmax(near_limit, d->session->tolerance);
     for (int j = 0; j < d->session->m; j++)
-        if (ves_session_equality(d->session, j) || d->last.constraint[j] >= -near_limit) s->row[rows++] = j;
-    for (s->active = rows;;) {
+        if (ves_session_equality(d->session, j) || d->last.constraint[j] >= -limit) s->touched[rows++] = j;
+    s->near = rows;
+    for (;;) {
+        memcpy(s->row, s->touched, (size_t)rows * sizeof(int));
+        s->active = rows;
         span(s, d);
         solve(s, d);
         int k = wrong(s, d);
         if (k < 0) return;
-        memmove(s->row + k, s->row + k + 1, (size_t)(--s->active - k) * sizeof(int));
+        int gone = s->row[k], at = 0;
+        while (s->touched[at] != gone) at++;
+        s->touched[at] = s->touched[--rows]; /* those that went are kept behind the others */
+        s->touched[rows] = gone;
     }
 }
 
@@ -139,7 +154,7 @@ static void release(ves_saddle *s, const ves_descent *d, bool pressed)
     }
 }
 
-/* Slope of the Lagrangian at base + h e_i, where h is cut at the wall; h = 0 when it cannot be had. */
+/* Slope of the Lagrangian at base + h e_i, where h is cut at the wall; h = 0 when there is no room. */
 static ves_status slope_at(ves_saddle *s, ves_descent *d, int i, double *h, double *slope)
 {
     double u = s->base[i] + *h;
@@ -154,11 +169,12 @@ static ves_status slope_at(ves_saddle *s, ves_descent *d, int i, double *h, doub
     if (d->last.status == VES_OK)
         lagrangian_slope(s, d, slope);
     else
-        *h = 0;
+        s->edge = i;
     return VES_OK;
 }
 
-/* Returns false when some row cannot be had. */
+/* Next to an edge of what can be measured they tell nothing: f may end there as a root or a logarithm does,
+ * and the other side alone would not show it. Returns false when some row cannot be had. */
 static ves_status differences(ves_saddle *s, ves_descent *d, bool *ok)
 {
     int nf = s->frees;
@@ -166,7 +182,7 @@ static ves_status differences(ves_saddle *s, ves_descent *d, bool *ok)
         double up = step, down = -step;
         VES_TRY(slope_at(s, d, s->free[k], &up, s->plus));
         VES_TRY(slope_at(s, d, s->free[k], &down, s->minus));
-        *ok = up != down;
+        *ok = up != down && s->edge < 0;
         if (!*ok) return VES_OK;
         for (int l = 0; l < nf; l++)
             s->hessian[k * nf + l] = (s->plus[s->free[l]] - s->minus[s->free[l]]) / (up - down);
@@ -225,11 +241,43 @@ static bool judge(ves_saddle *s, int n, double noise)
     return s->lowest < -fmax(clear * s->largest, 10 * noise);
 }
 
+/* Which sides of the direction are open, to first order. */
+static void open_ways(ves_saddle *s, const ves_descent *d)
+{
+    int n = d->session->n;
+    s->way[0] = s->way[1] = true;
+    for (int i = 0; i < n; i++) {
+        if (s->base[i] <= near_wall && fabs(s->direction[i]) > sideways) s->way[s->direction[i] > 0] = false;
+        if (s->base[i] >= 1 - near_wall && fabs(s->direction[i]) > sideways)
+            s->way[s->direction[i] < 0] = false;
+    }
+    for (int k = 0; k < s->near; k++) {
+        double along = 0, size = 0;
+        for (int i = 0; i < n; i++) {
+            double slope = s->touching[s->touched[k] * n + i] * d->range[i];
+            along += slope * s->direction[i];
+            size += slope * slope;
+        }
+        bool equality = ves_session_equality(d->session, s->touched[k]);
+        if (!equality && fabs(along) > sideways * sqrt(size)) s->way[along < 0] = false;
+    }
+}
+
+/* Whether the value runs past a point beside an edge: steeper, in some free variable, than a descent leaves
+ * it. */
+static bool runs(const ves_saddle *s, const ves_descent *d)
+{
+    double most = 0;
+    for (int k = 0; k < s->frees; k++) most = fmax(most, fabs(s->slope[s->free[k]]));
+    return most > steep * d->first_scale;
+}
+
 ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *point, bool *negative)
 {
     int n = d->session->n;
     long mended = d->mended;
-    *negative = false;
+    *negative = s->running = false;
+    s->edge = -1;
     memcpy(s->base, point->u, (size_t)n * sizeof(double));
     VES_TRY(ves_descent_look(d, s->base, true));
     if (d->last.status != VES_OK) return VES_OK;
@@ -239,14 +287,18 @@ ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *poin
         lagrangian_slope(s, d, s->slope);
     }
     s->lagrangian = lagrangian(s, d);
+    if (d->session->m) memcpy(s->touching, d->last.jacobian, (size_t)(d->session->m * n) * sizeof(double));
     if (!s->frees) return VES_OK;
     bool ok = true;
     VES_TRY(differences(s, d, &ok));
+    s->running = s->edge >= 0 && runs(s, d);
     if (!ok || d->mended > mended) return VES_OK; /* differences of differences tell nothing */
     double noise = symmetrise(s->frees, s->hessian);
     project(s);
     ves_eigen_symmetric(s->frees, s->hessian, s->value, s->vector);
-    *negative = judge(s, n, noise);
+    if (!judge(s, n, noise)) return VES_OK;
+    open_ways(s, d);
+    *negative = s->way[0] || s->way[1];
     return VES_OK;
 }
 
@@ -275,6 +327,6 @@ static ves_status walk(ves_saddle *s, ves_descent *d, double sign, ves_point *si
 ves_status ves_saddle_leave(ves_saddle *s, ves_descent *d, ves_point *const side[2], bool found[2])
 {
     found[0] = found[1] = false;
-    VES_TRY(walk(s, d, 1, side[0], &found[0]));
-    return walk(s, d, -1, side[1], &found[1]);
+    if (s->way[0]) VES_TRY(walk(s, d, 1, side[0], &found[0]));
+    return s->way[1] ? walk(s, d, -1, side[1], &found[1]) : VES_OK;
 }

@@ -9,6 +9,8 @@ enum { VES_SADDLE_MOST = 64 }; /* variables */
 typedef struct ves_saddle {
     int active;         /* rows of constraints that hold as equations */
     int *row;           /* [m] their constraints */
+    int near, *touched; /* [m] all constraints that the point touches */
+    double *touching;   /* [m][n] the constraints' gradients at base */
     double *multiplier; /* [m]; 0 where not active */
     int frees;
     int *free;                    /* [n] variables that no wall holds */
@@ -22,14 +24,19 @@ typedef struct ves_saddle {
     double lagrangian;                /* at base */
     double lowest, largest;           /* curvatures: f per box width squared */
     int mostly;                       /* the variable that leads in direction */
+    bool way[2];                      /* which sides of it the constraints and walls leave open */
+    int edge; /* the variable along which there are designs that cannot be measured next to the point: then
+                 it cannot be judged; -1: none */
+    bool running; /* there the value still falls or rises: no minimum of its own */
 } ves_saddle;
 
 bool ves_saddle_create(ves_saddle *saddle, ves_session *session);
 
-/* negative: there is a direction of negative curvature at the point, clear of the noise of the differences. */
+/* negative: there is a direction of negative curvature at the point, clear of the noise of the differences,
+ * that some feasible way follows. */
 ves_status ves_saddle_check(ves_saddle *saddle, ves_descent *descent, const ves_point *point, bool *negative);
 
-/* Steps both ways along it; [0] and [1] are lower than the saddle when found[k]. */
+/* Steps along it, both ways where both are open; [0] and [1] are lower than the saddle when found[k]. */
 ves_status ves_saddle_leave(ves_saddle *saddle, ves_descent *descent, ves_point *const side[2],
                             bool found[2]);
 

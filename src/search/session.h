@@ -25,6 +25,7 @@ typedef struct ves_session ves_session;
 typedef struct ves_end {
     ves_point point;
     bool saddle;
+    bool pass; /* a saddle, and a descent from it ended lower */
 } ves_end;
 
 typedef struct ves_event {
