@@ -40,6 +40,11 @@ typedef struct ves_search_problem {
     void *data;
 
     const char *const *name; /* [n] of the variables, for the notes; NULL: x[0], x[1] ... */
+
+    /* Whether two ends of equal value are one design, though their variables differ; asked when the stages
+     * are over, from the thread that called ves_search_run. A negative return ends the search. NULL: no two
+     * are. */
+    ves_status (*same)(void *data, const double *a, const double *b, bool *same);
 } ves_search_problem;
 
 /* The annealer of [Ugail 2011, 7.3-7.4]: Metropolis acceptance (7.4.1), exponential schedule c_m = c_0
@@ -124,8 +129,8 @@ typedef struct ves_search_hooks {
     void *data;
 } ves_search_hooks;
 
-/* A distinct end of the search: within 1e-3 of the ranges (variables that the objective does not feel left
- * out) of no better one. */
+/* A distinct feasible end of the search: within 1e-3 of the ranges (variables that the objective does not
+ * feel left out) of no better one, nor the `same` as one. */
 typedef struct ves_optimum {
     const double *x;
     double value, violation;
@@ -163,8 +168,8 @@ typedef struct ves_search_result {
     const char *stop; /* a sentence: why the last stage that began ended */
     int notes;
     const char *const
-        *note; /* sentences: saddles left, bests refused by the proof and why, budget too short ... */
-    int optima;
+        *note;  /* sentences: saddles left, bests refused by the proof and why, budget too short ... */
+    int optima; /* 0: no feasible one was found and proved */
     const ves_optimum *optimum; /* best first */
     int temperatures;
     const ves_temperature *temperature;

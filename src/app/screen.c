@@ -120,13 +120,16 @@ static void constraints(const ves_problem *problem, const ves_design *design, FI
     fputc('\n', out);
 }
 
-/* What is to be said of a variable at x. */
-static const char *remark(const ves_variable *v, double x, bool idle)
+/* What is to be said of a variable at x. Under `scale:` a limit need not shut a shape out: it is there in
+ * other sizes. */
+static const char *remark(const ves_variable *v, double x, bool idle, bool scaled)
 {
     if (idle) return "had no effect on what is judged, in the designs looked at";
     double near = AT_LIMIT * (v->max - v->min);
-    if (x <= v->min + near) return "at its lower limit: the optimum may lie outside";
-    if (x >= v->max - near) return "at its upper limit: the optimum may lie outside";
+    if (x <= v->min + near)
+        return scaled ? "at its lower limit" : "at its lower limit: the optimum may lie outside";
+    if (x >= v->max - near)
+        return scaled ? "at its upper limit" : "at its upper limit: the optimum may lie outside";
     return "";
 }
 
@@ -151,7 +154,10 @@ void app_screen_variables(const ves_run *run, FILE *out)
         app_table_cell(&t, "[%s, %s]%s%s", app_screen_number(v->min / scale, low),
                        app_screen_number(v->max / scale, high), *v->shown.unit ? " " : "", v->shown.unit);
         bool idle = run->idle && run->idle[k];
-        app_table_cell(&t, "%s", best ? remark(v, run->best.x[k], idle) : idle ? remark(v, 0, true) : "");
+        app_table_cell(&t, "%s",
+                       best   ? remark(v, run->best.x[k], idle, p->scale)
+                       : idle ? remark(v, 0, true, false)
+                              : "");
     }
     app_table_print(&t, out);
     fputc('\n', out);

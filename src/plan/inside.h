@@ -118,6 +118,7 @@ struct ves_plan {
     double *lower, *upper, *start;
     const char **name;
     bool *equality;
+    double *shape[2], *planes; /* pose.c: points of two shapes that are compared */
 };
 
 /* level.c. face: its sites take the sides of their patches. */

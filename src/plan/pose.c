@@ -1,6 +1,14 @@
 /* Pose: the problem as a search sees it. */
 #include "plan/inside.h"
 
+#include <math.h>
+#include <string.h>
+
+/* Points of a patch by which shapes are compared; two are one shape within this part of their size. */
+enum { ALONG = 5, AROUND = 16, NODES = ALONG * AROUND, PLANES = 3 * VES_FIELDS };
+
+static const double ALIKE = 1e-3;
+
 ves_status ves_plan_pose(ves_plan *plan)
 {
     const ves_problem *p = plan->problem;
@@ -18,6 +26,44 @@ ves_status ves_plan_pose(ves_plan *plan)
         plan->name[k] = v->name;
     }
     for (int k = 0; k < p->constraints; k++) plan->equality[k] = p->constraint[k].relation == VES_EQUAL;
+    size_t points = p->scale ? (size_t)(3 * NODES * p->patches) : 0;
+    plan->shape[0] = ves_arena_doubles(a, points);
+    plan->shape[1] = ves_arena_doubles(a, points);
+    plan->planes = ves_arena_doubles(a, p->scale ? NODES * PLANES : 0);
+    return plan->shape[0] && plan->shape[1] && plan->planes ? VES_OK : VES_MEMORY;
+}
+
+/* Points of the shape at x, in the size that it is scaled to; a patch after the other. */
+static ves_status shape_take(ves_plan *plan, const double *x, double *X)
+{
+    double u[NODES], v[NODES];
+    for (int k = 0; k < NODES; k++) {
+        u[k] = (double)(k / AROUND) / (ALONG - 1);
+        v[k] = 6.283185307179586 * (k % AROUND) / AROUND;
+    }
+    VES_TRY(ves_plan_forward(plan, x, 0, PROGRAM_JUDGE, false));
+    for (int k = 0; k < plan->problem->patches; k++, X += 3 * NODES) {
+        VES_TRY(ves_plan_points(plan, k, NODES, u, v, plan->planes));
+        memcpy(X, plan->planes, sizeof *X * 3 * NODES);
+    }
+    return VES_OK;
+}
+
+/* With scale: a design and its copy in another size are one: they are compared as shapes. */
+static ves_status same(void *data, const double *a, const double *b, bool *same)
+{
+    ves_plan *plan = *(ves_plan **)data;
+    *same = false;
+    ves_status status = shape_take(plan, a, plan->shape[0]);
+    if (status == VES_OK) status = shape_take(plan, b, plan->shape[1]);
+    if (status != VES_OK) return status < VES_OK ? status : VES_OK;
+    const double *X = plan->shape[0], *Y = plan->shape[1];
+    double size = 0, apart = 0;
+    for (int k = 0; k < 3 * NODES * plan->problem->patches; k++) {
+        size = fmax(size, fabs(X[k] - X[k / NODES % 3 * NODES])); /* from the first point of all */
+        apart = fmax(apart, fabs(X[k] - Y[k]));
+    }
+    *same = apart <= ALIKE * size;
     return VES_OK;
 }
 
@@ -51,5 +97,6 @@ ves_search_problem ves_plan_search(ves_plan **plan, int workers)
                                 .workers = workers,
                                 .evaluate = evaluate,
                                 .data = plan,
-                                .name = first->name};
+                                .name = first->name,
+                                .same = first->problem->scale ? same : NULL};
 }

@@ -29,8 +29,8 @@ static ves_status between(ves_asker *asker, const ves_point *a, const ves_point 
     return VES_OK;
 }
 
-/* Two ends of the same value, far apart, are one optimum when the objective is flat between them: they differ
- * only in variables that it does not feel. */
+/* Two ends of the same value, far apart, are one optimum when the caller knows them to be one design, or when
+ * the objective is flat between them: they differ only in variables that it does not feel. */
 static ves_status flat(ves_asker *asker, const ves_point *a, const ves_point *b, ves_point *point, bool *same)
 {
     ves_session *session = asker->session;
@@ -38,7 +38,9 @@ static ves_status flat(ves_asker *asker, const ves_point *a, const ves_point *b,
     double fa = a->verdict.value, fb = b->verdict.value;
     double size = fmax(fmax(fabs(fa), fabs(fb)), 1e-3 * fabs(start->value - fa));
     *same = false;
-    if (fabs(fa - fb) > level * size || ves_session_left(session) < asker->evaluations + 3) return VES_OK;
+    if (fabs(fa - fb) > level * size) return VES_OK;
+    if (session->problem->same) VES_TRY(session->problem->same(session->problem->data, a->x, b->x, same));
+    if (*same || ves_session_left(session) < asker->evaluations + 3) return VES_OK;
     for (int k = 1; k <= 3; k++) {
         double value;
         VES_TRY(between(asker, a, b, 0.25 * k, point, &value));
@@ -78,10 +80,13 @@ static long spare(const ves_session *session)
     return session->budget - session->evaluations;
 }
 
-/* Puts one end into the cluster that it belongs to, or into a new one when it passes its proof. */
+/* Puts one end into the cluster that it belongs to, or into a new one when it is feasible and passes its
+ * proof.
+ */
 static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_point *point)
 {
     ves_session *session = asker->session;
+    if (end->point.verdict.violation > session->tolerance) return VES_OK;
     for (int k = 0; k < c->count; k++) {
         bool same;
         VES_TRY(alike(asker, &c->first[k].point, &end->point, point, &same));
@@ -165,10 +170,10 @@ static double *copy(ves_arena *arena, const double *from, int count)
     return to;
 }
 
-static bool fill_best(ves_search_result *r, ves_session *session, const ves_point *best, bool proved)
+static bool fill_best(ves_search_result *r, ves_session *session, const ves_point *best, bool feasible)
 {
     r->any = best->verdict.status == VES_OK;
-    r->feasible = r->any && proved && best->verdict.violation <= session->tolerance;
+    r->feasible = feasible;
     r->value = best->verdict.value;
     r->violation = best->verdict.violation;
     r->x = copy(&session->kept, best->x, session->n);
@@ -221,8 +226,8 @@ static ves_status fill(box *b, ves_session *session)
     bool proved;
     clusters c = {0};
     VES_TRY(choose(session, &best, &proved, &c.proofs));
-    if (!proved) c.proofs = 0; /* what is listed beside an unproved best is not better for a proof */
-    if (best->verdict.status == VES_OK) VES_TRY(cluster(&c, session, best));
+    bool feasible = proved && best->verdict.violation <= session->tolerance;
+    if (feasible) VES_TRY(cluster(&c, session, best));
     if (session->fault) return session->fault;
     r->n = session->n;
     r->m = session->m;
@@ -231,10 +236,9 @@ static ves_status fill(box *b, ves_session *session)
         session->ending = VES_ENDED_STOPPED;
         session->stop = ves_status_text(VES_INTERRUPTED);
     }
-    if (proved && best->verdict.violation > session->tolerance)
-        ves_session_note(session, "no feasible candidate was found");
+    if (proved && !feasible) ves_session_note(session, "no feasible candidate was found");
     if (session->fault) return session->fault;
-    bool ok = fill_best(r, session, best, proved) && fill_optima(r, session, &c) && fill_logs(r, session);
+    bool ok = fill_best(r, session, best, feasible) && fill_optima(r, session, &c) && fill_logs(r, session);
     return ok ? VES_OK : VES_MEMORY;
 }
 

@@ -1,0 +1,285 @@
+/* What a search ends in: saddles that are none, saddles that lead nowhere, edges, what is listed as an
+ * optimum. */
+#include <criterion/criterion.h>
+#include <criterion/new/assert.h>
+
+#include "search_problems.h"
+
+#pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
+
+static const char *noted(const ves_search_result *r, const char *word)
+{
+    for (int k = 0; k < r->notes; k++)
+        if (strstr(r->note[k], word)) return r->note[k];
+    return NULL;
+}
+
+/* ---- an equation written as two opposite inequalities ---- */
+
+/* f = x^2 - 3 y^2 on y = 0.5: a minimum, though f has negative curvature across the line. `swap`: which comes
+ * first, with different sizes as after a division by their own scales. */
+static ves_status trough(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    int upper = *(int *)data, lower = !upper;
+    v->value = x * x - 3 * y * y;
+    v->constraint[upper] = 0.7 * (y - 0.5);
+    v->constraint[lower] = 1.3 * (0.5 - y);
+    if (!g) return VES_OK;
+    g[0] = 2 * x, g[1] = -6 * y;
+    v->jacobian[2 * upper] = v->jacobian[2 * lower] = 0;
+    v->jacobian[2 * upper + 1] = 0.7;
+    v->jacobian[2 * lower + 1] = -1.3;
+    return VES_OK;
+}
+
+Test(ends, two_opposite_inequalities_are_an_equation)
+{
+    for (int swap = 0; swap < 2; swap++) {
+        given g = {.evaluate = trough,
+                   .n = 2,
+                   .m = 2,
+                   .lower = {-2, -1},
+                   .upper = {1.7, 2},
+                   .start = {0.9, 0.1},
+                   .gradients = true,
+                   .data = &swap};
+        ves_search_options o = ves_search_options_default();
+        for (o.seed = 1; o.seed <= 5; o.seed++) {
+            ves_search_result *r;
+            cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+            /* the slope across the line, 3, times violations that cost nothing, 1e-10 */
+            cr_expect(r->feasible && fabs(r->value + 0.75) < 1e-9, "swap %d: %.12g", swap, r->value);
+            cr_expect(r->optima == 1 && !r->optimum[0].saddle && !r->notes, "%d optima; %s", r->optima,
+                      r->notes ? r->note[0] : "");
+            ves_search_result_destroy(r);
+        }
+    }
+}
+
+/* f = -x^2 on the unit circle, written twice: its top is a saddle all the same. */
+static ves_status ring(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    v->value = -x * x;
+    v->constraint[0] = x * x + y * y - 1;
+    v->constraint[1] = -v->constraint[0];
+    if (!g) return VES_OK;
+    g[0] = -2 * x, g[1] = 0;
+    for (int k = 0; k < 2; k++) {
+        v->jacobian[2 * k] = (k ? -2 : 2) * x;
+        v->jacobian[2 * k + 1] = (k ? -2 : 2) * y;
+    }
+    return VES_OK;
+}
+
+Test(ends, a_saddle_between_two_opposite_inequalities_is_left)
+{
+    given g = {.evaluate = ring,
+               .n = 2,
+               .m = 2,
+               .lower = {-2, -2},
+               .upper = {2, 2},
+               .start = {0, 1},
+               .gradients = true};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(fabs(r->value + 1) < 1e-9 && r->optima == 2, "%.12g, %d optima", r->value, r->optima);
+    cr_expect(noted(r, "left it both ways") != NULL);
+    ves_search_result_destroy(r);
+}
+
+/* ---- only feasible directions count ---- */
+
+/* f = x y + (x^2 + y^2) / 4 with x, y >= 0 as constraints that do not pull at 0: negative curvature along
+ * (1, -1), which leaves the quadrant on either side. */
+static ves_status quadrant(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    v->value = x * y + (x * x + y * y) / 4;
+    v->constraint[0] = -x, v->constraint[1] = -y;
+    if (!g) return VES_OK;
+    g[0] = y + x / 2, g[1] = x + y / 2;
+    v->jacobian[0] = v->jacobian[3] = -1;
+    v->jacobian[1] = v->jacobian[2] = 0;
+    return VES_OK;
+}
+
+Test(ends, curvature_along_infeasible_ways_is_no_saddle)
+{
+    given g = {.evaluate = quadrant,
+               .n = 2,
+               .m = 2,
+               .lower = {-1, -1},
+               .upper = {1.5, 2},
+               .start = {0.3, 0.2},
+               .gradients = true};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(r->feasible && fabs(r->value) < 1e-10, "value %g", r->value); /* of second order in 1e-9 */
+    cr_expect(r->optima == 1 && !r->optimum[0].saddle && !r->notes, "%s", r->notes ? r->note[0] : "");
+    ves_search_result_destroy(r);
+}
+
+/* ---- nothing is lost ---- */
+
+/* A saddle at 0; what lies lower does not pass its proof. */
+static ves_status guarded_saddle(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    if ((ask->want & VES_WANT_PROOF) && fabs(x) > 0.5) return VES_SELF_INTERSECTS;
+    v->value = x * x * x * x / 4 - x * x / 2 + y * y;
+    if (g) g[0] = x * x * x - x, g[1] = 2 * y;
+    return VES_OK;
+}
+
+Test(ends, a_saddle_is_kept_when_what_lies_lower_is_refused)
+{
+    given g = {.evaluate = guarded_saddle,
+               .n = 2,
+               .lower = {-2, -3},
+               .upper = {2, 2},
+               .start = {0, 1},
+               .gradients = true};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(r->feasible && fabs(r->value) < 1e-12, "value %g, the saddle has 0, the start 1", r->value);
+    cr_expect(r->optima == 1 && r->optimum[0].saddle && r->refused == 2, "%d optima, %ld refused", r->optima,
+              r->refused);
+    ves_search_result_destroy(r);
+}
+
+/* ---- beside the edge of what can be measured ---- */
+
+enum { ROOT, LOGARITHM };
+
+static ves_status edge(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)worker;
+    bool root = *(int *)data == ROOT;
+    double x = ask->x[0] - 0.329, y = ask->x[1], *g = gradient_of(ask, v);
+    if (!(x > 0)) return VES_NO_NUMBER;
+    v->value = (root ? x + sqrt(x) : log(x)) + y * y;
+    if (g) g[0] = root ? 1 + 0.5 / sqrt(x) : 1 / x, g[1] = 2 * y;
+    return VES_OK;
+}
+
+Test(ends, nothing_is_said_of_saddles_beside_an_edge)
+{
+    for (int kind = ROOT; kind <= LOGARITHM; kind++) {
+        given g = {.evaluate = edge,
+                   .n = 2,
+                   .lower = {-2, -2},
+                   .upper = {3, 3},
+                   .start = {1.7, 1.1},
+                   .gradients = true,
+                   .data = &kind};
+        ves_search_options o = ves_search_options_default();
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(noted(r, "curvature") == NULL, "%s", noted(r, "curvature"));
+        cr_expect(noted(r, "along x[0]") && noted(r, "could not be judged"), "%d notes", r->notes);
+        cr_expect(noted(r, "runs into that edge") != NULL);
+        for (int k = 0; k < r->optima; k++) cr_expect(r->optimum[k].saddle == false);
+        ves_search_result_destroy(r);
+    }
+}
+
+/* ---- the list of optima ---- */
+
+/* f = x where c <= 0: c has a well that goes below 0 and one that does not, where descents stay. */
+static ves_status wells(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    double x = ask->x[0], *g = gradient_of(ask, v);
+    (void)worker;
+    v->value = x;
+    v->constraint[0] = x * x * x * x / 4 - x * x / 2 - 0.1 * x + 0.25 + *(double *)data;
+    if (!g) return VES_OK;
+    g[0] = 1;
+    v->jacobian[0] = x * x * x - x - 0.1;
+    return VES_OK;
+}
+
+Test(ends, only_feasible_ends_are_optima)
+{
+    double lift = 0;
+    given g = {.evaluate = wells,
+               .n = 1,
+               .m = 1,
+               .lower = {-2},
+               .upper = {2},
+               .start = {-1.3},
+               .gradients = true,
+               .data = &lift};
+    ves_search_options o = only_anneal(60);
+    o.stage[0].anneal.chains = 8;
+    o.stages = 2;
+    o.stage[1] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = ves_polish_default()};
+    for (o.seed = 1; o.seed <= 20; o.seed++) {
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(r->optima == r->feasible, "%d optima, feasible %d", r->optima, r->feasible);
+        for (int k = 0; k < r->optima; k++)
+            cr_expect(r->optimum[k].violation <= 1e-6, "violation %g", r->optimum[k].violation);
+        ves_search_result_destroy(r);
+    }
+    lift = 0.2; /* none is feasible */
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(r->any && !r->feasible && r->optima == 0 && noted(r, "no feasible candidate"));
+    ves_search_result_destroy(r);
+}
+
+/* f = (x y - 1)^2: least on a curve, which only the caller knows to be one design. */
+static ves_status curve(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v), t = x * y - 1;
+    v->value = t * t;
+    if (g) g[0] = 2 * t * y, g[1] = 2 * t * x;
+    return VES_OK;
+}
+
+static ves_status same_product(void *data, const double *a, const double *b, bool *same)
+{
+    ++*(int *)data;
+    *same = fabs(a[0] * a[1] - b[0] * b[1]) < 1e-3;
+    return VES_OK;
+}
+
+static ves_status broken(void *data, const double *a, const double *b, bool *same)
+{
+    (void)data, (void)a, (void)b, (void)same;
+    return VES_MEMORY;
+}
+
+Test(ends, the_caller_may_know_two_ends_to_be_one_design)
+{
+    const double lower[] = {0.1, 0.1}, upper[] = {3, 4}, start[] = {2.5, 2.9};
+    int asked = 0;
+    ves_search_problem p = {.n = 2,
+                            .lower = lower,
+                            .upper = upper,
+                            .start = start,
+                            .gradients = true,
+                            .evaluate = curve,
+                            .data = &asked};
+    ves_search_result *r;
+    cr_assert(eq(int, ves_search_run(&p, NULL, NULL, &r), VES_OK));
+    cr_expect(r->optima > 1, "%d optima on a curve", r->optima);
+    ves_search_result_destroy(r);
+    p.same = same_product;
+    cr_assert(eq(int, ves_search_run(&p, NULL, NULL, &r), VES_OK));
+    cr_expect(r->optima == 1 && r->optimum[0].hits == 16 && asked > 0, "%d optima", r->optima);
+    ves_search_result_destroy(r);
+    p.same = broken;
+    cr_expect(eq(int, ves_search_run(&p, NULL, NULL, &r), VES_MEMORY));
+    cr_expect(r == NULL);
+}
