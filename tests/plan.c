@@ -303,3 +303,28 @@ Test(plan, a_fold_is_a_verdict)
     cr_expect(fabs(verdict.value - 3 * 3.141592653589793) < 1e-12, "ring of area 3 pi: %.15g", verdict.value);
     bed_clear(&b);
 }
+
+/* A cone, its copy in another size, the same cone upside down, and another one. */
+Test(plan, with_scale_a_shape_in_two_sizes_is_one)
+{
+    const char *text = "vesica: 1\nvariables: {p: [0.1, 1, 9], q: [0.1, 2, 9], h: [0.1, 1.3, 9]}\n"
+                       "quadrature: {u: 16, v: 16}\n"
+                       "curves: {low: {circle: p}, high: {circle: {radius: q, centre: [0, 0, h]}}}\n"
+                       "patches: {wall: {operator: {power: 1}, conditions: [{u: 0, position: low}, {u: 1, "
+                       "position: high}]}}\n%sminimize: mean_curvature\n";
+    const double x[4][3] = {{1, 2, 1.3}, {2.41, 4.82, 3.133}, {2, 1, 1.3}, {1, 2, 1.33}};
+    char whole[800];
+    snprintf(whole, sizeof whole, text, "scale: {equation: area == 7}\n");
+    bed b = bed_make(whole);
+    ves_search_problem search = ves_plan_search(&b.plan, 1);
+    for (int k = 0; k < 4; k++) {
+        bool same = k > 1;
+        cr_assert_eq(search.same(search.data, x[0], x[k], &same), VES_OK);
+        cr_expect(same == (k < 2), "case %d: %d", k, same);
+    }
+    bed_clear(&b);
+    snprintf(whole, sizeof whole, text, "");
+    b = bed_make(whole);
+    cr_expect(ves_plan_search(&b.plan, 1).same == NULL, "variables tell sizes apart");
+    bed_clear(&b);
+}
