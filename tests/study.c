@@ -321,7 +321,7 @@ Test(study, violations_are_told_in_one_unit)
     const ves_run *r = t.run;
     /* the largest has an area of 8 pi */
     cr_assert(r->any && !r->feasible && fabs(r->best.violation - (1 - 0.08 * PI)) < 1e-6);
-    cr_assert(r->optima > 0 && fabs(r->optimum[0].violation - r->best.violation) < 1e-12);
+    cr_assert(r->optima == 0, "what is not feasible is no optimum");
     for (int k = 0; k < r->notes; k++) cr_expect(strstr(r->note[k], "least violation") == NULL);
     finish(&t);
 }

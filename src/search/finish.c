@@ -80,9 +80,7 @@ static long spare(const ves_session *session)
     return session->budget - session->evaluations;
 }
 
-/* Puts one end into the cluster that it belongs to, or into a new one when it is feasible and passes its
- * proof.
- */
+/* Puts one end into the cluster that it belongs to, or into a new one when it is feasible and proved. */
 static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_point *point)
 {
     ves_session *session = asker->session;
