@@ -2,7 +2,8 @@
  * chosen at the start design, the search of the file runs on `jobs` threads, and the best is measured again on
  * a grid twice as fine. When that changes it by more than 1e-6, the grid is chosen once more, at the best, and
  * the last polish of the search is repeated there on it, from the best and within the budget; a note tells it,
- * or, where the file gives the grid, asks for no polish, or no budget is left, what grid to give. A problem without variables is measured once.
+ * or, where the file gives the grid, asks for no polish, or no budget is left, what grid to give. A problem
+ * without variables is measured once.
  *
  * Numbers have the sign and the units of the file (SI, angles in radians; in a file without units: its own).
  * The same seed gives the same result for any number of jobs. Several runs may go on at once, in threads of
@@ -114,8 +115,8 @@ typedef struct ves_run_hooks {
 } ves_run_hooks;
 
 /* options, hooks, diag: NULL for none. diag gets warnings and errors. VES_OK: see ending, feasible, passed.
- * VES_IO or VES_MEMORY with a result: it holds, but its folder could not be made or filled. VES_USAGE, VES_IO
- * without a result: `out` cannot be used; nothing was searched. Whenever there is no result, *run is NULL.
+ * VES_IO or VES_MEMORY with a result: it holds, but its folder could not be filled. VES_USAGE, VES_IO without
+ * a result: its folder cannot be made; nothing was searched. Whenever there is no result, *run is NULL.
  * Destroy a run before its problem. */
 ves_status ves_run_create(const ves_problem *problem, const ves_run_options *options,
                           const ves_run_hooks *hooks, ves_run **run, ves_diag *diag);

@@ -186,7 +186,7 @@ static ves_status idle_find(study *s)
     return text ? keep_note(s, text) : complain(s->diag, VES_MEMORY);
 }
 
-/* --- the folder: a disk that cannot be written does not stop the search --- */
+/* --- the folder: a disk that fills up later does not stop the search --- */
 
 static void folder_begin(study *s)
 {
@@ -519,7 +519,7 @@ static ves_status work(study *s)
     VES_TRY(start_measure(s));
     if (run->searched || s->options->prove) VES_TRY(idle_find(s));
     folder_begin(s);
-    if (s->files != VES_OK && s->options->out) return s->files; /* told before the search has cost anything */
+    if (s->files != VES_OK) return s->files; /* told before the search has cost anything */
     if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);
     VES_TRY(run->searched ? search(s) : once(s));
     run->finer_change = ves_design_change(s->problem, &run->best, &run->finer);
