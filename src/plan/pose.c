@@ -1,4 +1,5 @@
 /* Pose: the problem as a search sees it. */
+#include "base/vector.h"
 #include "plan/inside.h"
 
 #include <math.h>
@@ -39,7 +40,7 @@ static ves_status shape_take(ves_plan *plan, const double *x, double *X)
     double u[NODES], v[NODES];
     for (int k = 0; k < NODES; k++) {
         u[k] = (double)(k / AROUND) / (ALONG - 1);
-        v[k] = 6.283185307179586 * (k % AROUND) / AROUND;
+        v[k] = VES_TWO_PI * (k % AROUND) / AROUND;
     }
     VES_TRY(ves_plan_forward(plan, x, 0, PROGRAM_JUDGE, false));
     for (int k = 0; k < plan->problem->patches; k++, X += 3 * NODES) {
