@@ -289,7 +289,7 @@ Test(verdicts, a_proof_compares_violations_in_units_of_their_sizes)
         {RIPPLE("b <= 0.1"), 4.5, VES_COARSE}, /* 8 % below its limit, 21 % above on the finer grid */
         {RIPPLE("b <= 0.1, within: 0.01"), 4.5, VES_COARSE},
         {RIPPLE("b <= 0.1, within: 1e-11"), 4.5, VES_COARSE},
-        {RIPPLE("b <= 0.001588"), 1.5, VES_OK}, /* 3e-5 of the start above on the finer grid */
+        {RIPPLE("b <= 0.001588"), 1.5, VES_OK}, /* 0.1 % above on the finer grid */
         {RIPPLE("b <= 0.001588, within: 1e-11"), 1.5, VES_OK},
         {RIPPLE("0.001588 >= b, within: 1"), 1.5, VES_OK}};
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {

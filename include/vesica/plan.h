@@ -56,7 +56,10 @@ ves_status ves_plan_choose(const ves_problem *problem, const double *x, int quad
  * nowhere to write it); VES_MEMORY: of a proof. */
 ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict);
 
-/* The two sides of a constraint (ves_problem_constraint tells its text and relation). */
+/* The two sides of a constraint (ves_problem_constraint tells its text and relation). Its size is |limit| at
+ * the start design, the limit being the side that no variable and no measure changes, or the right one when
+ * both sides are so or neither; where that is 0, the size of the other side at the start; 1 where both are 0,
+ * or where it is not a finite number. */
 typedef struct ves_sides {
     double value, limit; /* left and right side */
     double violation;    /* how far it is not met, relative to its size: 0 when it is */

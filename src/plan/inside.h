@@ -95,11 +95,11 @@ struct ves_plan {
     double *value;          /* [measures] */
     double *fine;           /* [measures] on the finer grid, while a candidate is proved */
     double *fine_violation; /* [constraints] the same, in units of their sizes */
-    double *size;           /* [constraints] the scale of each violation, fixed at the start */
-    bool *cheap;            /* [constraints] reads no dear measure */
-    bool any_dear;          /* some judged measure is dear */
-    double cutoff;          /* of the question at hand */
-    int numberless;         /* the measure that gave no number in the last program, or -1 */
+    double *size;   /* [constraints] the scale of each violation: its limit, or what it says at the start */
+    bool *cheap;    /* [constraints] reads no dear measure */
+    bool any_dear;  /* some judged measure is dear */
+    double cutoff;  /* of the question at hand */
+    int numberless; /* the measure that gave no number in the last program, or -1 */
     double similarity;
     double *formula_room;
     double *measure_adjoint;

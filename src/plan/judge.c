@@ -106,7 +106,10 @@ static ves_status judge(ves_plan *plan, const ves_ask *ask, int index, ves_verdi
 /* The finer grid must tell the same story, or the optimizer has found a hole between the nodes. Two grids
  * agree when the objective does, or, should it be near zero by cancellation, when every measure that is
  * judged does. 1 %: a hole is a matter of factors, and a coarse grid chosen by hand is the user's right. No
- * constraint may be violated by 1 % of its size more than on the coarse one, whatever its `within`. */
+ * constraint may be violated by 1 % of its size more than on the coarse one, whatever its `within`: it is met
+ * to its tolerance on the grid of the search, and how well that grid measures it is the same question as for
+ * the objective. Were it 1e-6 here, an equality could be proved on no grid that measures its sides less well
+ * than that. A chosen grid measures to 1e-9 or is refined at the best; what is left is told (`checked`). */
 static const double AGREE = 1e-2;
 
 static bool near(double a, double b)

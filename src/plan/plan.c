@@ -160,13 +160,28 @@ static ves_status patch_make(ves_plan *plan, int k, ves_diag *diag)
     return status;
 }
 
-/* The scale of each violation: |limit|, or the size of the left side at the start, whichever is larger. */
+/* Does the value change from one candidate to another? */
+static bool changes(const ves_problem *p, const ves_formula *formula)
+{
+    for (int k = 0; k < p->slots; k++)
+        if (p->varying[k] && ves_formula_uses_slot(formula, k)) return true;
+    for (int m = 0; m < p->measures; m++)
+        if (ves_formula_uses_argument(formula, m)) return true;
+    return false;
+}
+
+/* The scale of each violation: |limit| at the start, the limit being the side that is the same for every
+ * candidate, or the right one. What is held against it may begin anywhere, a million times beyond: its size
+ * counts only where the limit is 0 and says none. */
 static void sizes_fix(ves_plan *plan)
 {
     const ves_problem *p = plan->problem;
     for (int k = 0; k < p->constraints; k++) {
-        double left = fabs(ves_plan_formula(plan, p->constraint[k].left));
-        double right = fabs(ves_plan_formula(plan, p->constraint[k].right)), size = fmax(left, right);
+        const ves_constraint_def *c = &p->constraint[k];
+        bool turned = changes(p, c->right) && !changes(p, c->left); /* 1 <= area */
+        double limit = fabs(ves_plan_formula(plan, turned ? c->left : c->right));
+        double other = fabs(ves_plan_formula(plan, turned ? c->right : c->left));
+        double size = limit == 0 ? other : limit;
         plan->size[k] = size > 0 && isfinite(size) ? size : 1;
     }
 }

@@ -124,7 +124,7 @@ typedef struct ves_constraint_def {
     ves_relation relation;
     const ves_formula *left, *right;
     ves_shown shown;
-    double within; /* feasible when the scaled violation is at most this; 1e-6 unless said */
+    double within; /* feasible when the violation relative to its size (vesica/plan.h) is at most this */
 } ves_constraint_def;
 
 /* expect: a formula that must not be 0. Arguments: the measures, then VES_EXPECT_... */

@@ -131,7 +131,7 @@ static const ves_entry measure[] = {
 
 static const ves_entry relation_keys[] = {
     {{"require", KIND(VES_RELATION), .required = true, .about = "the relation"}, "require: area <= 14", NULL},
-    {{"within", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 1e-6, .about = "feasible when |excess| / max(|limit|, the measure at the start) is at most this"}, "within: 1e-3", NULL},
+    {{"within", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 1e-6, .about = "feasible when |excess| / |limit| is at most this; the limit is the side that is always the same, else the right one, at the start; where it is 0, the other side at the start stands for it, where both are, 1"}, "within: 1e-3", NULL},
     END};
 
 static const ves_entry relation[] = {
