@@ -154,7 +154,13 @@ Test(api, what_is_wrong_is_told_or_kept_quiet)
     cr_expect(ves_diag_count(diag) == 1 && ves_diag_errors(diag) == 0);
     ves_diag_text(diag, 0, text, sizeof text);
     cr_expect(strstr(text, "mine:1:5: warning: not 2"), "%s", text);
+    for (int k = -1; k <= 1; k += 2) {
+        cr_expect(ves_diag_text(diag, k, text, sizeof text) == 0 && text[0] == 0);
+        cr_expect(ves_diag_severity(diag, k) == VES_NOTE && ves_diag_status(diag, k) == VES_OK);
+    }
     ves_diag_destroy(diag);
+    cr_expect(ves_diag_text(NULL, 0, text, sizeof text) == 0 && ves_diag_status(NULL, 0) == VES_OK);
+    cr_expect(ves_diag_severity(NULL, 0) == VES_NOTE && ves_diag_count(NULL) == 0);
     ves_diag_destroy(NULL);
 }
 
@@ -168,6 +174,25 @@ static ves_plan *plan_make(const ves_problem *problem)
 }
 
 /* V = pi r^2 h and A = 2 pi r (r + h), to rounding: cylinders and discs are met exactly. */
+/* Neither drowns the other: a host may keep one diag for all it does. */
+Test(api, a_full_diag_keeps_errors_and_remarks_apart)
+{
+    ves_diag *diag = ves_diag_create();
+    for (int k = 0; k < VES_DIAG_REMARKS + 1; k++)
+        ves_diag_add(diag, VES_WARNING, VES_RANGE, (ves_mark){0}, "w%d", k);
+    for (int k = 0; k < VES_DIAG_ERRORS + 1; k++)
+        ves_diag_add(diag, VES_ERROR, VES_RANGE, (ves_mark){0}, "e%d", k);
+    int last = VES_DIAG_REMARKS + VES_DIAG_ERRORS - 1;
+    char text[40];
+    cr_expect(ves_diag_count(diag) == last + 1 && ves_diag_errors(diag) == VES_DIAG_ERRORS + 1);
+    ves_diag_text(diag, last, text, sizeof text);
+    cr_expect_str_eq(text, "error: e99");
+    ves_problem *problem;
+    cr_expect_eq(ves_problem_read_text("g.yaml", SOLVED, strlen(SOLVED), NULL, &problem, diag), VES_OK);
+    ves_problem_destroy(problem);
+    ves_diag_destroy(diag);
+}
+
 Test(api, a_plan_gives_values_and_gradients)
 {
     ves_problem *problem = read_file("bottle");
@@ -238,6 +263,10 @@ Test(api, a_plan_tells_its_grid_and_its_patches)
     cr_assert_eq(ves_plan_create(problem, &(ves_plan_options){{grid[0], 40}}, &same, NULL), VES_OK);
     cr_expect(isnan(ves_plan_grid(same, again)) && again[0] == grid[0] && again[1] == 40);
     ves_plan_destroy(same);
+    static const int wrong[][2] = {{-1, 8}, {8, -1}, {4097, 8}, {8, 1 << 30}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++)
+        cr_expect_eq(ves_plan_create(problem, &(ves_plan_options){{wrong[k][0], wrong[k][1]}}, &same, NULL),
+                     VES_RANGE);
     double left;
     cr_assert_eq(ves_plan_choose(problem, NULL, again, &left), VES_OK);
     cr_expect(left == change && again[0] == grid[0] && again[1] == grid[1]);
@@ -289,6 +318,10 @@ Test(api, a_run_finds_the_best_and_tells_all_about_it)
 {
     ves_problem *problem = read_file("bottle");
     ves_run *run;
+    static const ves_run_options wrong[] = {
+        {.evaluations = -1}, {.jobs = -1}, {.trace = (ves_trace)9}, {.trace = (ves_trace)-1}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++)
+        cr_expect_eq(ves_run_create(problem, &wrong[k], NULL, &run, NULL), VES_RANGE);
     cr_assert_eq(ves_run_create(problem, NULL, NULL, &run, NULL), VES_OK);
     cr_assert(run->any && run->searched && run->problem == problem);
     cr_expect(run->feasible && run->passed && run->expects >= 1 && run->expect[0].passed);
@@ -431,6 +464,9 @@ Test(api, a_figure_gives_its_mesh)
     ves_mesh m[2];
     double x = 0.8, h = 2 / (PI * x * x), sizes[2][2], open;
     enum { U = 6, V = 200 };
+    static const int wrong[][2] = {{-1, 0}, {10001, 8}, {8, 2}, {8, 10001}, {65536, 65536}, {10000, 10000}};
+    for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++)
+        cr_expect_eq(ves_plan_figure(plan, &x, wrong[k][0], wrong[k][1], &figure, NULL), VES_RANGE);
     cr_assert_eq(ves_plan_figure(plan, &x, U, V, &figure, NULL), VES_OK);
     ves_plan_destroy(plan);
     ves_problem_destroy(problem);
@@ -461,6 +497,8 @@ Test(api, a_figure_gives_its_mesh)
         if (cap) cr_assert(fabs(n[2] - out) < 1e-12);
     }
     for (int k = 0; k < m[1].vertices; k++) cr_assert(m[1].patch[k] == 0 || m[1].patch[k] == -1);
+    ves_mesh again;
+    cr_expect(ves_figure_mesh(figure, true, &again) == VES_OK && again.point == m[1].point, "made once");
     ves_figure_destroy(figure);
     ves_figure_destroy(NULL);
 }
@@ -546,6 +584,10 @@ Test(api, a_program_brings_a_measure)
         cr_expect(fabs(design.measure[k] - times[k] * 2.5 * PI) < 1e-12, "%s: %.15g",
                   ves_problem_measure(problem, k), design.measure[k]);
     cr_expect(!ves_plan_search(&plan, 1).gradients, "it has none");
+    double gradient, constraint[2], jacobian[2];
+    ves_verdict verdict = {.gradient = &gradient, .constraint = constraint, .jacobian = jacobian};
+    ves_ask ask = {.x = &start, .cutoff = HUGE_VAL, .want = VES_WANT_GRADIENT};
+    cr_expect_eq(ves_plan_evaluate(plan, &ask, &verdict), VES_ABSENT);
     ves_plan_destroy(plan);
     ves_problem_destroy(problem);
 }

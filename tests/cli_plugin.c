@@ -67,7 +67,7 @@ static void refuse_plugin(const char *entry, const char *measure, int code, cons
         "static ves_status eval(const ves_measure_input *i, double *v) { *v = i->samples; return VES_OK; }\n"
         "static const ves_measure m = {.about = \"a\", .unit = \"1\", .surface = VES_X, .eval = eval, %s};\n"
         "static const ves_measure *const list[] = {&m, NULL};\n"
-        "const ves_plugin ves_plugin_entry = {.abi = VES_ABI, .name = \"bad\", .measure = list, %s};\n",
+        "const ves_plugin ves_plugin_entry = {VES_PLUGIN, .name = \"bad\", .measure = list, %s};\n",
         measure, entry);
     write_file("bad.c", text);
     cr_assert(system("cc -std=c17 -w -shared -fPIC -I" VESICA_SOURCE "/include -o bad.so bad.c") == 0, "%s",
@@ -77,14 +77,18 @@ static void refuse_plugin(const char *entry, const char *measure, int code, cons
 
 Test(cli_plugin, a_plugin_that_is_not_sound_is_refused)
 {
-    static const char size[] = ".size = sizeof(ves_measure)", name[] = ".name = \"mine\"";
+    static const char sound[] = ".abi = VES_ABI", name[] = ".name = \"mine\"";
+    static const char unsized[] = "does not say which vesica it was built with";
     root_make();
     refuse_plugin(".size = sizeof(ves_measure) + 8", name, 2, "was built for a newer vesica");
-    refuse_plugin(".size = sizeof(ves_measure) - 8", name, 2, "does not say how large its measures are");
-    refuse_plugin(".size = 0", name, 2, "does not say how large its measures are");
-    refuse_plugin(".size = sizeof(ves_measure), .measure = NULL", name, 2, "lacks its name or its list");
-    refuse_plugin(size, ".name = \"area\"", 2, "\"area\" from outside has the name of a built-in one");
-    refuse_plugin(size, ".name = \"mine\", .eval = NULL", 2, "note: it is in the plugin \"bad.so\"");
-    refuse_plugin(size, ".name = \"mine\", .surface = 1 << 12", 2, "this version of vesica does not know");
+    refuse_plugin(".given = sizeof(ves_measure_input) + sizeof(ves_samples) + sizeof(ves_adjoint) + 8", name,
+                  2, "was built for a newer vesica");
+    refuse_plugin(".size = sizeof(ves_measure) - 8", name, 2, unsized);
+    refuse_plugin(".size = 0", name, 2, unsized);
+    refuse_plugin(".given = 0", name, 2, unsized);
+    refuse_plugin(".measure = NULL", name, 2, "lacks its name or its list");
+    refuse_plugin(sound, ".name = \"area\"", 2, "\"area\" from outside has the name of a built-in one");
+    refuse_plugin(sound, ".name = \"mine\", .eval = NULL", 2, "note: it is in the plugin \"bad.so\"");
+    refuse_plugin(sound, ".name = \"mine\", .surface = 1 << 12", 2, "this version of vesica does not know");
     root_remove();
 }

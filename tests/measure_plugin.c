@@ -81,6 +81,8 @@ Test(measure_plugin, a_shape_inside_out_is_a_verdict)
 Test(measure_plugin, says_which_interface_it_was_built_for)
 {
     cr_assert(ves_plugin_entry.abi == VES_ABI && ves_plugin_entry.size == sizeof(ves_measure));
+    cr_assert(ves_plugin_entry.given ==
+              sizeof(ves_measure_input) + sizeof(ves_samples) + sizeof(ves_adjoint));
     cr_assert(ves_plugin_entry.measure[0] && !ves_plugin_entry.measure[1]);
     cr_assert(ves_measures_check(ves_plugin_entry.measure, NULL) == VES_OK);
 }

@@ -158,5 +158,4 @@ static const ves_measure *const list[] = {&sphericity, NULL};
 
 /* What vesica looks for in the shared object. */
 extern const ves_plugin ves_plugin_entry;
-const ves_plugin ves_plugin_entry = {
-    .abi = VES_ABI, .size = sizeof(ves_measure), .name = "sphericity", .measure = list};
+const ves_plugin ves_plugin_entry = {VES_PLUGIN, "sphericity", list};

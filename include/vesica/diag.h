@@ -4,8 +4,10 @@
  *     file:line:column: error: what happened
  *         3 |   circle: {raduis: 0.5}
  *           |            ^~~~~~
- * Ownership: the caller creates and destroys; every string handed in is copied. Once VES_DIAG_ERRORS errors
- * have been kept, further ones are only counted. */
+ * Ownership: the caller creates and destroys; every string handed in is copied. The first VES_DIAG_ERRORS
+ * errors are kept, and beside them the first VES_DIAG_REMARKS warnings and notes; further errors are only
+ * counted. Every function takes NULL, and then does nothing, and any index: beyond those kept there is a note
+ * without a text. */
 #ifndef VESICA_DIAG_H
 #define VESICA_DIAG_H
 
@@ -18,7 +20,7 @@
 extern "C" {
 #endif
 
-enum { VES_DIAG_ERRORS = 100 };
+enum { VES_DIAG_ERRORS = 100, VES_DIAG_REMARKS = 200 };
 
 /* A place in a source text: 1-based line and column (bytes), length of the caret; source counts the texts
  * that were given (0 the problem file, then one for each --set). line 0: no place. */
@@ -30,7 +32,7 @@ typedef enum ves_severity { VES_NOTE, VES_WARNING, VES_ERROR } ves_severity;
 
 typedef struct ves_diag ves_diag;
 
-/* NULL when out of memory; every function here takes NULL and then does nothing. */
+/* NULL when out of memory. */
 ves_diag *ves_diag_create(void);
 void ves_diag_destroy(ves_diag *diag);
 

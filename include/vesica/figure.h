@@ -38,7 +38,7 @@ typedef struct ves_mesh {
  * Welded: one vertex for each place, closed where the shape is; normal, H, K, k1 and k2 are NULL, and patch,
  * u, v are those of the first patch there.
  *
- * VES_MEMORY; *mesh is then zero. */
+ * Made once. VES_MEMORY, and VES_FAULT of a figure that is none: *mesh is then zero. */
 ves_status ves_figure_mesh(ves_figure *figure, bool welded, ves_mesh *mesh);
 
 /* Writes one file; the format is the ending of path: vtp, stl, obj, ply, off, csv. A file of that name is
@@ -46,7 +46,7 @@ ves_status ves_figure_mesh(ves_figure *figure, bool welded, ves_mesh *mesh);
 ves_status ves_figure_write(ves_figure *figure, const char *path, ves_diag *diag);
 
 /* A shaded picture of the figure, depth-sorted, with the end curves drawn; by the ending of path (png, svg,
- * pdf). */
+ * pdf). Begin with ves_view_default(). */
 typedef struct ves_view {
     int width, height;            /* pixels, 64 to 16384; 0: 960 x 720 */
     double azimuth, height_angle; /* radians: where the viewer stands; up is `up` (0 x, 1 y, 2 z) */

@@ -1,9 +1,9 @@
 /* Measures: Shape -> number. *Objective* and *constraint* are roles that a problem file gives to measures.
  *
  * A measure declares which samples it reads; the plan fills them once for all measures. A measure built
- * outside the tree is the same descriptor in a shared object that exports const ves_plugin ves_plugin_entry =
- * {VES_ABI, sizeof(ves_measure), "my measures", list}; and is loaded with --plugin. Everything here is in SI
- * units, angles in radians.
+ * outside the tree is the same descriptor in a shared object that exports
+ *     const ves_plugin ves_plugin_entry = {VES_PLUGIN, "my measures", list};
+ * and is loaded with --plugin. Everything here is in SI units, angles in radians.
  *
  * Planes: a scalar at node s = j * nu + i (i along u, j along v: u runs fastest, since every sum over modes
  * is then a sum of whole vector registers along u); a vector is three planes. */
@@ -37,7 +37,7 @@ enum {
 /* Where samples are taken, and what can be filled there. */
 typedef enum ves_site {
     VES_SITE_SURFACE, /* the quadrature nodes of a patch: everything */
-    VES_SITE_CAP, /* an end curve closed by a flat fan to its mean point; nodes along v (nu = 1): everything,
+    VES_SITE_CAP, /* an end curve closed by a fan (a cone) to its mean point; nodes along v (nu = 1): everything,
                      but of the patch at that end. The fan itself is what X and Xv make of it */
     VES_SITE_CURVE, /* a curve that a CURVE or PLACE key names; nodes along v (nu = 1): X, Xv, Xvv. They are
                        evenly spread, more than two for each of its Fourier modes, and so say all of it */
@@ -91,8 +91,8 @@ typedef struct ves_measure_input {
      * Fills look number k of surface number i at the points u[0..2] x v[0..2] (node = 3 j + i; 0 <= u <= 1,
      * 0 <= v <= 2 pi; they may coincide) and returns the index of its sample and of its adjoint; -1: at one
      * of them the surface has no number, or no tangent plane for what needs one. What a look was filled with
-     * last in eval is what gradient finds. It costs a quarter of what 16 x 32 nodes
-     * of a patch cost. */
+     * last in eval is what gradient finds. It costs a quarter of what 16 x 32 nodes of a patch cost. input is
+     * the very one that eval was called with, no copy. */
     int (*look)(const struct ves_measure_input *input, int i, int k, const double u[3], const double v[3]);
     int first_look; /* index of the first sample of looks */
 } ves_measure_input;
@@ -165,16 +165,21 @@ typedef struct ves_measure {
                      double *number_adjoint);
 } ves_measure;
 
-/* Members are only ever appended, to this struct and to those above, and the enums only grow; `size` tells
- * which of them a plugin was built with: a vesica that is older than the plugin refuses it, a newer one takes
- * the members that the plugin does not know for 0. ves_key and ves_arg stand in arrays: they change only with
- * VES_ABI. */
+/* Members are only ever appended, to this struct and to those above, and the enums only grow; the sizes tell
+ * which of them a plugin was built with: a vesica that is older than the plugin, in any of them, refuses it, a
+ * newer one takes the members of ves_measure that the plugin does not know for 0. ves_key and ves_arg stand in
+ * arrays: they change only with VES_ABI. */
 typedef struct ves_plugin {
-    int abi;     /* VES_ABI */
-    size_t size; /* sizeof(ves_measure) */
+    int abi;      /* VES_ABI */
+    size_t size;  /* sizeof(ves_measure) */
+    size_t given; /* the sizes of ves_measure_input, ves_samples and ves_adjoint together */
     const char *name;
     const ves_measure *const *measure; /* NULL-terminated */
 } ves_plugin;
+
+/* The first three members, as these headers have them. */
+#define VES_PLUGIN                                                                                           \
+    VES_ABI, sizeof(ves_measure), sizeof(ves_measure_input) + sizeof(ves_samples) + sizeof(ves_adjoint)
 
 #ifdef __cplusplus
 }

@@ -24,14 +24,14 @@ extern "C" {
 typedef struct ves_plan ves_plan;
 
 typedef struct ves_plan_options {
-    int quadrature[2]; /* nodes along u and v; 0: as the problem says; when that is `auto`: chosen */
+    int quadrature[2]; /* nodes along u and v, to 4096; 0: as the problem says; when that is `auto`: chosen */
 } ves_plan_options;
 
 /* options NULL: as the problem says. Choosing a grid takes about as long as a hundred evaluations: give other
  * plans of the same problem the grid of the first (ves_plan_grid). On failure *plan is NULL and the reason is
  * in diag, which may be NULL. A start design that cannot be measured is no failure: normals then face outward
  * at the first of up to 31 others that can be measured and encloses a volume, the same for every plan.
- * VES_SINGULAR where a measure needs an inside (volume) and no design that was tried encloses anything. */
+ * VES_RANGE: no such grid. VES_SINGULAR where a measure needs an inside (volume) and no design that was tried encloses anything. */
 ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *options, ves_plan **plan,
                            ves_diag *diag);
 void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
@@ -53,7 +53,8 @@ ves_status ves_plan_choose(const ves_problem *problem, const double *x, int quad
  * constraint by 1 % of its size more, and must not cross itself (validity: self_intersection). The arrays of
  * verdict are the caller's, and ask->level does not matter to a proof. A candidate that fails is
  * verdict->status > 0. Returns VES_OK; VES_RANGE: there is no such level (without a diagnostic: there is
- * nowhere to write it); VES_MEMORY: of a proof. */
+ * nowhere to write it); VES_ABSENT: VES_WANT_GRADIENT where a measure that is judged has none
+ * (ves_plan_search(...).gradients is false); VES_MEMORY: of a proof. */
 ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict);
 
 /* The two sides of a constraint (ves_problem_constraint tells its text and relation). Its size is |limit| at
@@ -119,10 +120,10 @@ ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u
  * count + k]. VES_ABSENT: that patch has none; VES_MEMORY; VES_RANGE: no such patch. */
 ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u, double *out);
 
-/* The shape at x on nu x nv cells a patch (0: chosen), for files, pictures and meshes. Owned by the caller. A
- * design that fails is drawn all the same, with a warning in diag, as long as it has a shape: a positive
- * status says that it has none (VES_NO_ROOT, VES_NO_BRACKET, VES_NO_POINT) and *figure is NULL, as after
- * VES_MEMORY. */
+/* The shape at x on nu x nv cells a patch (1 to 10000 and 3 to 10000, 2e7 in all; 0: chosen), for files,
+ * pictures and meshes. Owned by the caller. A design that fails is drawn all the same, with a warning in diag,
+ * as long as it has a shape: a positive status says that it has none (VES_NO_ROOT, VES_NO_BRACKET,
+ * VES_NO_POINT) and *figure is NULL, as after VES_RANGE and VES_MEMORY. */
 ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_figure **figure,
                            ves_diag *diag);
 

@@ -86,7 +86,7 @@ enum { VES_STAGES = 16 };
 typedef struct ves_search_options {
     int stages; /* 0: auto = anneal with 8 chains (16 when there are gradients), then polish each end */
     ves_stage stage[VES_STAGES];
-    uint64_t seed;
+    uint64_t seed; /* default: 1 */
 
     /* Budget of the whole search, never exceeded; 0: the sum of the stages, the start and 16 proofs. Proofs
      * are evaluations like any other: an annealing asks for at most 16 and a tenth of its budget, a polish

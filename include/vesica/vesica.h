@@ -1,4 +1,7 @@
-/* vesica: shape optimization with PDE surfaces. This header brings in the whole public interface. */
+/* vesica: shape optimization with PDE surfaces. This header brings in the whole public interface.
+ *
+ * Before version 1.0 structs may grow with every minor version: compile against the headers of
+ * the library that you link. Plugins go by an interface of their own (vesica/measure.h). */
 #ifndef VESICA_VESICA_H
 #define VESICA_VESICA_H
 

@@ -22,28 +22,31 @@ static const char *as_file(app *a, const char *path)
 /* The members that the first version of the interface had: no plugin was built with fewer. */
 static const size_t FIRST = offsetof(ves_measure, gradient) + sizeof((ves_measure *)NULL)->gradient;
 
+static const ves_plugin OURS = {VES_PLUGIN, "", NULL};
+
 static ves_status check(app *a, const char *path, const ves_plugin *plugin)
 {
-    if (plugin->abi != VES_ABI) {
+    if (plugin->abi != OURS.abi) {
         app_fail(a, VES_ABSENT,
                  "the plugin \"%s\" was built for interface %d; this is vesica %s with interface %d: build "
                  "it again",
-                 path, plugin->abi, VESICA_VERSION, VES_ABI);
+                 path, plugin->abi, VESICA_VERSION, OURS.abi);
         return VES_ABSENT;
     }
-    if (plugin->size > sizeof(ves_measure)) {
+    if (plugin->size > OURS.size || plugin->given > OURS.given) {
         app_fail(
             a, VES_ABSENT,
-            "the plugin \"%s\" was built for a newer vesica (its measures have %zu bytes, those of vesica %s "
-            "%zu): build it again with the headers of this one",
-            path, plugin->size, VESICA_VERSION, sizeof(ves_measure));
+            "the plugin \"%s\" was built for a newer vesica (its measures have %zu bytes and are given %zu, "
+            "those of vesica %s %zu and %zu): build it again with the headers of this one",
+            path, plugin->size, plugin->given, VESICA_VERSION, OURS.size, OURS.given);
         return VES_ABSENT;
     }
-    if (plugin->size >= FIRST && plugin->name && plugin->measure) return VES_OK;
+    bool sized = plugin->size >= FIRST && plugin->given > 0;
+    if (sized && plugin->name && plugin->measure) return VES_OK;
     app_fail(a, VES_USAGE,
-             plugin->size < FIRST ? "the plugin \"%s\" does not say how large its measures are: "
-                                    ".size = sizeof(ves_measure)"
-                                  : "the plugin \"%s\" lacks its name or its list of measures",
+             sized ? "the plugin \"%s\" lacks its name or its list of measures"
+                   : "the plugin \"%s\" does not say which vesica it was built with: ves_plugin_entry = "
+                     "{VES_PLUGIN, name, measures}",
              path);
     return VES_USAGE;
 }

@@ -6,7 +6,7 @@
 
 #include "base/arena.h"
 
-enum { TEXT = 1200, MESSAGES = 300, EXCERPT = 120 };
+enum { TEXT = 1200, MESSAGES = VES_DIAG_ERRORS + VES_DIAG_REMARKS, EXCERPT = 120 };
 
 typedef struct source {
     const char *name, *text;
@@ -23,7 +23,7 @@ typedef struct message {
 struct ves_diag {
     ves_arena arena;
     source *first, *last;
-    int sources, errors, count;
+    int sources, errors, remarks, count;
     message kept[MESSAGES];
 };
 
@@ -59,8 +59,8 @@ ves_status ves_diag_add(ves_diag *diag, ves_severity severity, ves_status status
                         const char *format, ...)
 {
     if (!diag) return status;
-    bool drop = severity == VES_ERROR && diag->errors++ >= VES_DIAG_ERRORS;
-    if (drop || diag->count == MESSAGES) return status;
+    bool keep = severity == VES_ERROR ? diag->errors++ < VES_DIAG_ERRORS : diag->remarks++ < VES_DIAG_REMARKS;
+    if (!keep) return status;
     char text[TEXT];
     va_list list;
     va_start(list, format);
@@ -82,14 +82,20 @@ int ves_diag_errors(const ves_diag *diag)
     return diag ? diag->errors : 0;
 }
 
+static const message *kept_at(const ves_diag *diag, int index)
+{
+    static const message none = {VES_NOTE, VES_OK, {0}, ""};
+    return index >= 0 && index < ves_diag_count(diag) ? &diag->kept[index] : &none;
+}
+
 ves_severity ves_diag_severity(const ves_diag *diag, int index)
 {
-    return diag->kept[index].severity;
+    return kept_at(diag, index)->severity;
 }
 
 ves_status ves_diag_status(const ves_diag *diag, int index)
 {
-    return diag->kept[index].status;
+    return kept_at(diag, index)->status;
 }
 
 static const source *source_at(const ves_diag *diag, int index)
@@ -144,11 +150,12 @@ static size_t excerpt(char *buffer, size_t size, size_t at, const source *s, ves
 size_t ves_diag_text(const ves_diag *diag, int index, char *buffer, size_t size)
 {
     static const char *const word[] = {"note", "warning", "error"};
-    const message *m = &diag->kept[index];
+    const message *m = kept_at(diag, index);
     const source *s = m->mark.line > 0 ? source_at(diag, m->mark.source) : NULL;
-    size_t at = 0;
+    size_t length = 0;
     if (size) buffer[0] = 0;
-    if (s) at = append(buffer, size, at, "%s:%d:%d: ", s->name, m->mark.line, m->mark.column);
-    at = append(buffer, size, at, "%s: %s", word[m->severity], m->text);
-    return s ? excerpt(buffer, size, at, s, m->mark) : at;
+    if (!*m->text) return 0;
+    if (s) length = append(buffer, size, length, "%s:%d:%d: ", s->name, m->mark.line, m->mark.column);
+    length = append(buffer, size, length, "%s: %s", word[m->severity], m->text);
+    return s ? excerpt(buffer, size, length, s, m->mark) : length;
 }

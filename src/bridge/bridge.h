@@ -24,7 +24,7 @@ typedef struct ves_mesh_facts {
     double area, volume; /* volume: 0 when not closed */
 } ves_mesh_facts;
 
-/* Judges a mesh. pairs: look for self-intersections too (dearer). VES_FAULT with a message when the arrays
+/* Judges a mesh: what tests hold quadrature and welding against. pairs: look for self-intersections too (dearer). VES_FAULT with a message when the arrays
  * are no manifold. VES_OK leaves the message empty, or a remark in it: triangles without an area. */
 ves_status ves_bridge_facts(const ves_mesh *mesh, bool pairs, ves_mesh_facts *facts,
                             char message[VES_BRIDGE_TEXT]);

@@ -9,7 +9,7 @@
  * Nearer, what cancels in them would be seen: their rounding is 1e-16 over this distance. */
 static const double INSIDE = 2e-3;
 
-enum { EVERYTHING = (1 << VES_FIELDS) - 1, ALONG = 48 };
+enum { EVERYTHING = (1 << VES_FIELDS) - 1, ALONG = 48, CELLS_MOST = 10000, ALL_MOST = 20000000 };
 
 static ves_status patch_reserve(ves_figure *figure, ves_figure_patch *f)
 {
@@ -295,10 +295,23 @@ ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **out
     return status;
 }
 
+static bool drawable(const ves_plan *plan, int nu, int nv)
+{
+    return nu >= 0 && nu <= CELLS_MOST && (nv == 0 || (nv >= 3 && nv <= CELLS_MOST)) &&
+           (double)nu * nv * plan->problem->patches <= ALL_MOST;
+}
+
 ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_figure **figure,
                            ves_diag *diag)
 {
     *figure = NULL;
+    if (!drawable(plan, nu, nv))
+        return ves_diag_add(
+            diag, VES_ERROR, VES_RANGE, (ves_mark){0},
+            "a figure has 1 to %d cells along u and 3 to %d along v, %d in all: %d x %d on %d "
+            "patch%s are not possible",
+            CELLS_MOST, CELLS_MOST, ALL_MOST, nu, nv, plan->problem->patches,
+            plan->problem->patches == 1 ? "" : "es");
     ves_status status = ves_plan_forward(plan, x, 0, PROGRAM_JUDGE, false);
     bool drawn = status >= VES_OK && status != VES_NO_ROOT && status != VES_NO_BRACKET;
     ves_status wrong = drawn ? status : VES_OK;

@@ -118,6 +118,7 @@ struct ves_plan {
     double *lower, *upper, *start;
     const char **name;
     bool *equality;
+    bool gradients;            /* every measure that is judged has one */
     double *shape[2], *planes; /* pose.c: points of two shapes that are compared */
 };
 

@@ -165,6 +165,7 @@ static ves_status failed(ves_status status, ves_verdict *verdict)
 ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict)
 {
     if (ask->level < 0 || ask->level >= LEVELS) return VES_RANGE;
+    if ((ask->want & VES_WANT_GRADIENT) && !plan->gradients) return VES_ABSENT;
     verdict->status = VES_OK;
     bool proof = ask->want & VES_WANT_PROOF;
     return failed(proof ? prove(plan, ask, verdict) : judge(plan, ask, ask->level, verdict), verdict);

@@ -227,6 +227,8 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     return VES_OK;
 }
 
+enum { NODES_MOST = 4096 }; /* as the reader has it for `quadrature` */
+
 /* The grid: what the options say, else the problem, else what is chosen. */
 static ves_status grid_settle(const ves_problem *problem, ves_plan_options *options, double *change)
 {
@@ -250,6 +252,8 @@ ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *o
     ves_status status = plan ? VES_OK : VES_MEMORY;
     *out = NULL;
     if (plan) plan->problem = problem;
+    for (int d = 0; d < 2; d++)
+        if (chosen.quadrature[d] < 0 || chosen.quadrature[d] > NODES_MOST) status = VES_RANGE;
     if (status == VES_OK) status = grid_settle(problem, &chosen, &plan->change);
     if (status == VES_OK) status = build(plan, &chosen, diag);
     if (status == VES_OK) {

@@ -27,6 +27,10 @@ ves_status ves_plan_pose(ves_plan *plan)
         plan->name[k] = v->name;
     }
     for (int k = 0; k < p->constraints; k++) plan->equality[k] = p->constraint[k].relation == VES_EQUAL;
+    plan->gradients = true;
+    for (int m = 0; m < p->measures; m++)
+        if (plan->runs[PROGRAM_JUDGE][m] || plan->runs[PROGRAM_SCALE][m])
+            plan->gradients = plan->gradients && p->measure[m].measure->gradient;
     size_t points = p->scale ? (size_t)(3 * NODES * p->patches) : 0;
     plan->shape[0] = ves_arena_doubles(a, points);
     plan->shape[1] = ves_arena_doubles(a, points);
@@ -68,16 +72,6 @@ static ves_status same(void *data, const double *a, const double *b, bool *same)
     return VES_OK;
 }
 
-/* Whether every measure that is judged has a gradient. */
-static bool gradients(const ves_plan *plan)
-{
-    for (int m = 0; m < plan->problem->measures; m++)
-        if ((plan->runs[PROGRAM_JUDGE][m] || plan->runs[PROGRAM_SCALE][m]) &&
-            !plan->problem->measure[m].measure->gradient)
-            return false;
-    return true;
-}
-
 static ves_status evaluate(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
 {
     ves_plan **plan = data;
@@ -94,7 +88,7 @@ ves_search_problem ves_plan_search(ves_plan **plan, int workers)
                                 .start = first->start,
                                 .equality = first->equality,
                                 .tolerance = VES_FEASIBLE,
-                                .gradients = gradients(first),
+                                .gradients = first->gradients,
                                 .workers = workers,
                                 .evaluate = evaluate,
                                 .data = plan,

@@ -342,7 +342,7 @@ static bool take(builder *b, const yaml_event_t *event)
     default:
         break;
     }
-    return !b->stop && ves_diag_errors(b->diag) < VES_DIAG_ERRORS;
+    return !b->stop;
 }
 
 /* The reader stumbles over bytes, the scanner over characters. */

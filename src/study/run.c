@@ -530,12 +530,21 @@ static ves_status work(study *s)
     return VES_OK;
 }
 
+static ves_status options_check(const ves_run_options *o, ves_diag *diag)
+{
+    if (o->evaluations >= 0 && o->jobs >= 0 && (unsigned)o->trace <= VES_TRACE_NONE) return VES_OK;
+    return ves_diag_add(diag, VES_ERROR, VES_RANGE, (ves_mark){0},
+                        "options of a run: evaluations %ld and jobs %d must be >= 0, trace %d 0 to %d",
+                        o->evaluations, o->jobs, (int)o->trace, (int)VES_TRACE_NONE);
+}
+
 ves_status ves_run_create(const ves_problem *problem, const ves_run_options *options,
                           const ves_run_hooks *hooks, ves_run **out, ves_diag *diag)
 {
     static const ves_run_hooks deaf = {0};
     static const ves_run_options plain = {0};
     *out = NULL;
+    if (options) VES_TRY(options_check(options, diag));
     ves_run_box *box = ves_memory_take(sizeof *box);
     if (!box) return complain(diag, VES_MEMORY);
     study s = {.problem = problem,

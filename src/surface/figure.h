@@ -41,6 +41,7 @@ struct ves_figure {
     bool closed;      /* with caps, the patches enclose a volume */
     int patches;
     ves_figure_patch *patch;
+    ves_mesh mesh[2]; /* as made: [welded]; without vertices: not yet */
 };
 
 /* Other units: lengths times factor, curvatures accordingly. Before any mesh is made of it. */

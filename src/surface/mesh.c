@@ -191,11 +191,13 @@ ves_status ves_figure_mesh(ves_figure *figure, bool welded, ves_mesh *mesh)
 {
     maker m = {.figure = figure, .welded = welded};
     ves_arena scratch = {0};
-    *mesh = (ves_mesh){0};
+    *mesh = figure->mesh[welded];
+    if (mesh->vertices) return VES_OK;
     ves_status status = make(&m, &figure->arena, &scratch);
     ves_arena_destroy(&scratch);
     if (status != VES_OK) return status;
     *mesh = (ves_mesh){m.vertices, m.triangles, m.point, m.corner, m.patch, m.u,
                        m.v,        m.normal,    m.H,     m.K,      m.k1,    m.k2};
+    figure->mesh[welded] = *mesh;
     return VES_OK;
 }
