@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/diag.h"
 
 enum { TEXT = 1200, MESSAGES = VES_DIAG_ERRORS + VES_DIAG_REMARKS, EXCERPT = 120 };
 
@@ -70,6 +71,11 @@ ves_status ves_diag_add(ves_diag *diag, ves_severity severity, ves_status status
     message m = {severity, status, mark, copy ? copy : ves_status_text(VES_MEMORY)};
     diag->kept[diag->count++] = m;
     return status;
+}
+
+ves_status ves_diag_fail(ves_diag *diag, ves_status status)
+{
+    return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "%s", ves_status_text(status));
 }
 
 int ves_diag_count(const ves_diag *diag)

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/arena.h"
+#include "base/diag.h"
 
 enum { TRIES = 1000 };
 
@@ -18,7 +19,7 @@ ves_status ves_file_complain(const char *path, int error, ves_diag *diag)
 
 static ves_status out_of_memory(ves_diag *diag)
 {
-    return ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s", ves_status_text(VES_MEMORY));
+    return ves_diag_fail(diag, VES_MEMORY);
 }
 
 /* FOLDER/.NAME.PID-TRY.ENDING */

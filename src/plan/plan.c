@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/diag.h"
 #include "plan/inside.h"
 
 /* --- what each program runs --- */
@@ -260,8 +261,7 @@ ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *o
         *out = plan;
         return VES_OK;
     }
-    if (ves_diag_errors(diag) == before)
-        ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "%s", ves_status_text(status));
+    if (ves_diag_errors(diag) == before) ves_diag_fail(diag, status);
     ves_plan_destroy(plan);
     return status;
 }

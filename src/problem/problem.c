@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/diag.h"
 #include "measure/registry.h"
 #include "problem/override.h"
 #include "problem/reader.h"
@@ -199,11 +200,6 @@ static ves_status read_text(ves_arena *arena, const char *path, const char *text
     return two_passes(&t, problem, diag);
 }
 
-static ves_status no_memory(ves_diag *diag)
-{
-    return ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s", ves_status_text(VES_MEMORY));
-}
-
 ves_status ves_problem_read_text(const char *name, const char *text, size_t length,
                                  const ves_read_options *options, ves_problem **problem, ves_diag *diag)
 {
@@ -211,7 +207,7 @@ ves_status ves_problem_read_text(const char *name, const char *text, size_t leng
     *problem = NULL;
     ves_status status = read_text(&arena, name, text, length, options, problem, diag);
     ves_arena_destroy(&arena);
-    return status == VES_MEMORY ? no_memory(diag) : status;
+    return status == VES_MEMORY ? ves_diag_fail(diag, VES_MEMORY) : status;
 }
 
 static ves_status io_error(const char *path, const char *what, ves_diag *diag)
@@ -228,7 +224,7 @@ ves_status ves_problem_load(FILE *file, const char *path, char **text, size_t *l
         if (room - *length < CHUNK) {
             room = 2 * room + CHUNK;
             char *more = ves_memory_grow(*text, room);
-            if (!more) return no_memory(diag);
+            if (!more) return ves_diag_fail(diag, VES_MEMORY);
             *text = more;
         }
         got = fread(*text + *length, 1, CHUNK, file);

@@ -8,17 +8,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/diag.h"
+
 enum { NUMBERS = 1000000 };
 
 static ves_status refuse(const char *path, ves_diag *diag)
 {
     return ves_diag_add(diag, VES_ERROR, VES_IO, (ves_mark){0}, "cannot make the folder \"%s\": %s", path,
                         strerror(errno));
-}
-
-static ves_status no_memory(ves_diag *diag)
-{
-    return ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s", ves_status_text(VES_MEMORY));
 }
 
 bool ves_folder_is(const char *path)
@@ -31,7 +28,7 @@ bool ves_folder_is(const char *path)
 static ves_status make_above(const char *path, bool last, ves_arena *arena, ves_diag *diag)
 {
     char *part = ves_arena_text(arena, path, strlen(path));
-    if (!part) return no_memory(diag);
+    if (!part) return ves_diag_fail(diag, VES_MEMORY);
     for (char *slash = strchr(part + 1, '/'); slash; slash = strchr(slash + 1, '/')) {
         *slash = 0;
         if (mkdir(part, 0777) && errno != EEXIST && !ves_folder_is(part)) return refuse(part, diag);
@@ -77,7 +74,7 @@ ves_status ves_folder_number(const char *parent, const char *name, ves_arena *ar
     VES_TRY(ves_folder_open(parent, arena, diag));
     for (long number = highest(parent, name) + 1; number < NUMBERS; number++) {
         char *path = ves_arena_format(arena, "%s/%s-%04ld", parent, name, number);
-        if (!path) return no_memory(diag);
+        if (!path) return ves_diag_fail(diag, VES_MEMORY);
         if (mkdir(path, 0777) == 0) {
             *folder = path;
             return VES_OK;
@@ -111,7 +108,7 @@ ves_status ves_folder_make(const char *path, ves_arena *arena, char **folder, ve
                             "the folder \"%s\" is not empty: nothing is overwritten, choose another one",
                             path);
     *folder = ves_arena_text(arena, path, strlen(path));
-    return *folder ? VES_OK : no_memory(diag);
+    return *folder ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
 }
 
 char *ves_folder_path(const char *folder, const char *name, ves_arena *arena)

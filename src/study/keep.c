@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/diag.h"
 #include "output/file.h"
 #include "output/output.h"
 #include "study/folder.h"
@@ -16,18 +17,13 @@ typedef struct keeper {
     ves_diag *diag;
 } keeper;
 
-static ves_status no_memory(ves_diag *diag)
-{
-    return ves_diag_add(diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s", ves_status_text(VES_MEMORY));
-}
-
 /* One whole file of text, written by `fill`. */
 static ves_status text_write(const keeper *k, const char *name, const char *ending,
                              void (*fill)(const keeper *, FILE *))
 {
     ves_file file;
     char *path = ves_folder_path(k->run->folder, name, k->arena);
-    if (!path) return no_memory(k->diag);
+    if (!path) return ves_diag_fail(k->diag, VES_MEMORY);
     VES_TRY(ves_file_begin(&file, path, ending, k->diag));
     fill(k, file.out);
     return ves_file_end(&file, VES_OK, k->diag);
@@ -105,14 +101,14 @@ ves_status ves_keep_problem(const ves_run *run, ves_arena *arena, ves_diag *diag
 static ves_status shape_write(const keeper *k, ves_figure *figure, const char *name)
 {
     char *path = ves_folder_path(k->run->folder, name, k->arena);
-    return path ? ves_format_find("vtp")->write(figure, path, k->diag) : no_memory(k->diag);
+    return path ? ves_format_find("vtp")->write(figure, path, k->diag) : ves_diag_fail(k->diag, VES_MEMORY);
 }
 
 static ves_status picture_write(const keeper *k, ves_figure *figure)
 {
     ves_view view = ves_view_default();
     char *path = ves_folder_path(k->run->folder, "best.png", k->arena);
-    return path ? ves_picture_write(figure, &view, path, k->diag) : no_memory(k->diag);
+    return path ? ves_picture_write(figure, &view, path, k->diag) : ves_diag_fail(k->diag, VES_MEMORY);
 }
 
 /* The shape of one design; nothing for one that has no shape. */

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/diag.h"
 #include "base/text.h"
 #include "problem/tree.h"
 #include "study/folder.h"
@@ -26,11 +27,6 @@ typedef struct source {
 } source;
 
 static const ves_mark NOWHERE = {0};
-
-static ves_status no_memory(ves_diag *diag)
-{
-    return ves_diag_add(diag, VES_ERROR, VES_MEMORY, NOWHERE, "%s", ves_status_text(VES_MEMORY));
-}
 
 /* --- result.json --- */
 
@@ -72,10 +68,10 @@ static ves_status best_read(const char *run, ves_arena *arena, best *out, ves_di
     char *path = ves_folder_path(run, "result.json", arena), *text = NULL;
     size_t length = 0;
     *out = (best){.run = run};
-    if (!path) return no_memory(diag);
+    if (!path) return ves_diag_fail(diag, VES_MEMORY);
     errno = 0;
     ves_status status = load(path, arena, &text, &length);
-    if (status == VES_MEMORY) return no_memory(diag);
+    if (status == VES_MEMORY) return ves_diag_fail(diag, VES_MEMORY);
     if (status != VES_OK)
         return ves_diag_add(diag, VES_ERROR, VES_IO, NOWHERE,
                             "\"%s\" is not the folder of a finished run: \"%s\" cannot be read: %s", run,
@@ -129,7 +125,7 @@ static ves_status missing_tell(const best *b, const ves_problem *problem, ves_ar
 {
     int count;
     const char *list = missing(b, problem, arena, &count);
-    if (!list) return no_memory(diag);
+    if (!list) return ves_diag_fail(diag, VES_MEMORY);
     if (!count) return VES_OK;
     if (b->other && count < problem->variables) {
         ves_diag_add(diag, VES_NOTE, VES_OK, NOWHERE,
@@ -158,7 +154,7 @@ static ves_status best_apply(const best *b, const ves_problem *problem, ves_aren
                                 "the run \"%s\" has no number for \"%s\"", b->run, v->name);
         ves_override *o = &override[(*count)++];
         *o = (ves_override){v->name, with_unit(number, v, arena)};
-        if (!o->value) return no_memory(diag);
+        if (!o->value) return ves_diag_fail(diag, VES_MEMORY);
     }
     return VES_OK;
 }
@@ -177,13 +173,13 @@ static ves_status read_at(const source *from, const best *b, const ves_read_opti
     ves_arena *arena = &opened->arena;
     ves_problem *first = NULL;
     ves_diag *quiet = ves_diag_create();
-    if (!quiet) return no_memory(diag);
+    if (!quiet) return ves_diag_fail(diag, VES_MEMORY);
     ves_status status = read(from, options, &first, quiet);
     ves_diag_destroy(quiet);
     if (status != VES_OK) return read(from, options, &opened->problem, diag);
     int count = 0;
     ves_override *all = ves_arena_take(arena, (size_t)(first->variables + options->overrides), sizeof *all);
-    status = all ? best_apply(b, first, arena, all, &count, diag) : no_memory(diag);
+    status = all ? best_apply(b, first, arena, all, &count, diag) : ves_diag_fail(diag, VES_MEMORY);
     if (status == VES_OK) {
         ves_read_options whole = *options;
         for (int k = 0; k < options->overrides; k++) all[count + k] = options->override[k];
@@ -227,7 +223,7 @@ static ves_status name_run(ves_opened *opened, ves_diag *diag)
     ves_problem *p = opened->problem;
     if (p->title != p->name) return VES_OK;
     p->title = ves_arena_text(&p->arena, opened->name, strlen(opened->name));
-    return p->title ? VES_OK : no_memory(diag);
+    return p->title ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
 }
 
 static ves_status open_run(const char *path, const ves_open_options *options, ves_opened *opened,
@@ -236,7 +232,7 @@ static ves_status open_run(const char *path, const ves_open_options *options, ve
     best own = {0}, other = {0};
     const source from = {.path = ves_folder_path(path, "problem.yaml", &opened->arena)};
     opened->name = last_part(path, &opened->arena);
-    if (!from.path || !opened->name) return no_memory(diag);
+    if (!from.path || !opened->name) return ves_diag_fail(diag, VES_MEMORY);
     ves_status status = best_read(path, &opened->arena, &own, options->start ? NULL : diag);
     if (options->start) status = best_read(options->start, &opened->arena, &other, diag);
     if (status != VES_OK) return status;
@@ -281,8 +277,9 @@ ves_status ves_study_open(const char *path, const ves_open_options *options, ves
         ves_folder_is(path) ? open_run(path, options, opened, diag) : open_file(path, options, opened, diag);
     if (status == VES_OK) return status;
     ves_study_close(opened);
-    return ves_diag_errors(diag) ? status
-                                 : no_memory(diag); /* who has no memory may have had none to say so */
+    return ves_diag_errors(diag)
+               ? status
+               : ves_diag_fail(diag, VES_MEMORY); /* who has no memory may have had none to say so */
 }
 
 void ves_study_close(ves_opened *opened)

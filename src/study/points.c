@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/arena.h"
+#include "base/diag.h"
 #include "base/text.h"
 
 enum { LINE = 256, FIRST = 1024 };
@@ -96,8 +97,7 @@ ves_status ves_points_read(FILE *in, const char *name, ves_points *p, ves_diag *
                 diag, VES_ERROR, VES_RANGE, nowhere,
                 "%s:%d: u = %g lies outside the patch (0 to 1); these u and v are not those of a domain",
                 name, number, u);
-        if (!keep(p, u, v))
-            return ves_diag_add(diag, VES_ERROR, VES_MEMORY, nowhere, "%s", ves_status_text(VES_MEMORY));
+        if (!keep(p, u, v)) return ves_diag_fail(diag, VES_MEMORY);
     }
     if (ferror(in))
         return ves_diag_add(diag, VES_ERROR, VES_USAGE, nowhere, "cannot read \"%s\": %s", name,

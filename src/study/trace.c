@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/diag.h"
 #include "output/file.h"
 
 /* Room for the words and the fixed numbers of a line, and for each variable: a line of the tube with 17
@@ -19,9 +20,7 @@ ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, ves_arena *are
     tracer->best = (ves_verdict){.status = VES_NO_NUMBER};
     tracer->room = (size_t)(FIXED + EACH * tracer->problem->variables);
     tracer->line = ves_arena_take(arena, tracer->room, 1);
-    if (!tracer->line)
-        return ves_diag_add(tracer->diag, VES_ERROR, VES_MEMORY, (ves_mark){0}, "%s",
-                            ves_status_text(VES_MEMORY));
+    if (!tracer->line) return ves_diag_fail(tracer->diag, VES_MEMORY);
     tracer->out = fopen(path, "wbx");
     return tracer->out ? VES_OK : ves_file_complain(path, errno, tracer->diag);
 }

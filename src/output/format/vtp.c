@@ -3,6 +3,7 @@
  * patch -1, curvature 0. */
 #include <stdint.h>
 
+#include "base/diag.h"
 #include "output/file.h"
 #include "output/output.h"
 
@@ -99,8 +100,7 @@ static ves_status write(ves_figure *figure, const char *path, ves_diag *diag)
     ves_file file;
     ves_mesh mesh;
     ves_status status = ves_figure_mesh(figure, false, &mesh);
-    if (status != VES_OK)
-        return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "%s", ves_status_text(status));
+    if (status != VES_OK) return ves_diag_fail(diag, status);
     VES_TRY(ves_file_begin(&file, path, "vtp", diag));
     mesh_write(file.out, figure, &mesh);
     return ves_file_end(&file, VES_OK, diag);
