@@ -54,6 +54,7 @@ typedef struct plan_level {
     int quadrature[2];
     int sites;
     plan_site *site;         /* first one for each patch, then caps, then what keys name */
+    int (*edge)[2];          /* [patches] sites of its two ends, and of the sides of a sheet; -1: none */
     plan_instance *instance; /* [measures] */
 } plan_level;
 
@@ -166,7 +167,11 @@ ves_status ves_plan_crosses(ves_plan *plan);
 /* why.c: is every point of the figure finite? Else an error "what: ...". */
 bool ves_plan_figure_finite(const ves_plan *plan, const ves_figure *figure, const char *what, ves_diag *diag);
 
-/* validity.c */
+/* validity.c: nodes, edges: what it reads at the nodes of a patch, and on its edges: two ends of so many
+ * parts, each with a place before and after the nodes of that part. */
+unsigned ves_validity_nodes(const ves_plan *plan, int patch, int level);
+unsigned ves_validity_edges(const ves_plan *plan, int patch, int level);
+int ves_edge_parts(const ves_grid *nodes);
 ves_status ves_plan_validity(const ves_plan *plan, int level);
 
 /* sheet.c: the edges of one sheet as it is bound, and of all of them in general position */

@@ -167,19 +167,11 @@ static ves_status instance_finish(ves_plan *plan, plan_level *l, int m)
 }
 
 /* What validity looks at, in the programs that judge. */
-static void validity_needs(const ves_problem *p, plan_level *l)
+static void judging_needs(plan_site *s, unsigned wanted)
 {
-    unsigned all =
-        (p->validity.jacobian ? VES_NORMAL : 0) | (p->shape.closed ? VES_X | VES_NORMAL | VES_AREA : 0);
-    for (int k = 0; k < p->patches; k++) {
-        unsigned wanted = all;
-        if (p->validity.least_radius >= 0) wanted |= VES_X;
-        if (p->validity.monotone >= 0) wanted |= VES_XU;
-        if (p->patch[k].kind == VES_PATCH_FORMULA) wanted |= VES_X; /* it may have no value */
-        l->site[k].needs[PROGRAM_JUDGE] |= wanted;
-        l->site[k].needs[PROGRAM_ALL] |= wanted;
-        l->site[k].wants |= wanted;
-    }
+    s->needs[PROGRAM_JUDGE] |= wanted;
+    s->needs[PROGRAM_ALL] |= wanted;
+    s->wants |= wanted;
 }
 
 void ves_plan_level_face(ves_plan *plan, int index)
@@ -193,26 +185,52 @@ void ves_plan_level_face(ves_plan *plan, int index)
     }
 }
 
-static ves_status edge_add(ves_plan *plan, plan_level *l, const plan_site *edge, const ves_grid *along)
+static ves_status edge_add(ves_plan *plan, plan_level *l, int patch, const ves_grid *along, int *index)
 {
-    plan_site *s = &l->site[l->sites++];
-    *s = *edge;
-    s->needs[PROGRAM_JUDGE] = s->needs[PROGRAM_ALL] = s->wants = VES_X;
-    return ves_grid_given(along->nu, along->u, along->nv, along->v, along->periodic, &plan->arena, &s->grid);
+    plan_site *s = &l->site[ *index = l->sites++];
+    *s = (plan_site){.patch = patch, .curve = -1, .samples.site = VES_SITE_SURFACE};
+    VES_TRY(
+        ves_grid_given(along->nu, along->u, along->nv, along->v, along->periodic, &plan->arena, &s->grid));
+    s->grid.symmetric = along->symmetric;
+    return VES_OK;
 }
 
-/* A formula may have no value on an edge alone, which is no node: log(u). */
-static ves_status edges_add(ves_plan *plan, plan_level *l, int patch)
+/* The nodes along v and, before and after each quarter of a symmetric grid, its ends: corners of a sheet, and
+ * where what is symmetric is widest. */
+static ves_status edge_nodes(ves_plan *plan, const ves_grid *nodes, ves_grid *edge)
 {
+    int parts = ves_edge_parts(nodes), run = nodes->nv / parts, at = 0;
+    *edge = *nodes;
+    edge->nv = nodes->nv + 2 * parts;
+    edge->v = ves_arena_take(&plan->arena, (size_t)edge->nv, sizeof *edge->v);
+    if (!edge->v) return VES_MEMORY;
+    for (int q = 0; q < parts; q++) {
+        edge->v[at++] = VES_TWO_PI * q / parts;
+        for (int j = 0; j < run; j++) edge->v[at++] = nodes->v[q * run + j];
+        edge->v[at++] = VES_TWO_PI * (q + 1) / parts;
+    }
+    return VES_OK;
+}
+
+/* No node lies on an edge: what may happen there alone is looked at for itself. */
+static ves_status edges_add(ves_plan *plan, int index, int patch)
+{
+    plan_level *l = &plan->level[index];
     double ends[2] = {0, 1}, sides[2] = {0, VES_TWO_PI};
     const ves_grid nodes = l->site[patch].grid;
-    const plan_site edge = {.patch = patch, .curve = -1, .samples.site = VES_SITE_SURFACE};
-    if (plan->problem->patch[patch].kind != VES_PATCH_FORMULA) return VES_OK;
-    ves_grid across = nodes, along = nodes;
+    unsigned wanted = ves_validity_edges(plan, patch, index);
+    int *edge = l->edge[patch];
+    edge[0] = edge[1] = -1;
+    if (!wanted) return VES_OK;
+    ves_grid across, along = nodes;
+    VES_TRY(edge_nodes(plan, &nodes, &across));
     across.nu = 2, across.u = ends;
     along.nv = 2, along.v = sides;
-    VES_TRY(edge_add(plan, l, &edge, &across));
-    return nodes.periodic ? VES_OK : edge_add(plan, l, &edge, &along);
+    VES_TRY(edge_add(plan, l, patch, &across, &edge[0]));
+    if (!nodes.periodic) VES_TRY(edge_add(plan, l, patch, &along, &edge[1]));
+    for (int k = 0; k < 2; k++)
+        if (edge[k] >= 0) judging_needs(&l->site[edge[k]], wanted);
+    return VES_OK;
 }
 
 ves_status ves_plan_level_build(ves_plan *plan, int index)
@@ -225,7 +243,8 @@ ves_status ves_plan_level_build(ves_plan *plan, int index)
         most += references(&p->measure[m]) + p->measure[m].measure->looks * surfaces_of(p, &p->measure[m]);
     l->site = ves_arena_take(&plan->arena, (size_t)most, sizeof *l->site);
     l->instance = ves_arena_take(&plan->arena, (size_t)p->measures, sizeof *l->instance);
-    if (!l->site || !l->instance) return VES_MEMORY;
+    l->edge = ves_arena_take(&plan->arena, (size_t)p->patches, sizeof *l->edge);
+    if (!l->site || !l->instance || !l->edge) return VES_MEMORY;
     l->sites = p->patches;
     for (int k = 0; k < p->patches; k++) {
         plan_site *s = &l->site[k];
@@ -234,14 +253,14 @@ ves_status ves_plan_level_build(ves_plan *plan, int index)
                                     &plan->arena, &s->grid));
     }
     for (int m = 0; m < p->measures; m++) VES_TRY(instance_build(plan, l, m));
-    validity_needs(p, l);
-    for (int k = 0; k < p->patches; k++) VES_TRY(edges_add(plan, l, k));
+    for (int k = 0; k < p->patches; k++) {
+        judging_needs(&l->site[k], ves_validity_nodes(plan, k, index));
+        VES_TRY(edges_add(plan, index, k));
+    }
     for (int k = 0; k < p->shape.caps && p->shape.closed; k++) { /* the shape must not turn inside out */
         int cap;
         VES_TRY(cap_add(plan, l, k, &cap));
-        l->site[cap].needs[PROGRAM_JUDGE] |= VES_X | VES_XV;
-        l->site[cap].needs[PROGRAM_ALL] |= VES_X | VES_XV;
-        l->site[cap].wants |= VES_X | VES_XV;
+        judging_needs(&l->site[cap], VES_X | VES_XV);
     }
     for (int k = 0; k < l->sites; k++) VES_TRY(ves_site_finish(plan, &l->site[k], l->site[k].samples.site));
     ves_plan_level_face(plan, index);
