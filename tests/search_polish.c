@@ -479,34 +479,32 @@ Test(polish, a_descent_that_fails_begins_again_at_its_own_best)
     }
 }
 
-/* Finite, but so steep that the algorithms' own arithmetic overflows: they ask for points that are no
- * numbers.
- */
+/* Finite, but beyond the start so steep that the algorithms' own arithmetic overflows: they ask for points that
+ * are no numbers. */
 static ves_status overflowing(void *data, int worker, const ves_ask *ask, ves_verdict *v)
 {
     (void)data, (void)worker;
-    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    double x = ask->x[0], y = ask->x[1], steep = x < 3.1 ? 4e307 : 1, *g = gradient_of(ask, v);
     v->value = x * x + y;
-    v->constraint[0] = 1e200 * (x * y - 1);
+    v->constraint[0] = x * y - 1;
     if (!g) return VES_OK;
     g[0] = 2 * x;
     g[1] = 1;
-    v->jacobian[0] = 1e200 * y;
-    v->jacobian[1] = 1e200 * x;
+    v->jacobian[0] = steep * y;
+    v->jacobian[1] = steep * x;
     return VES_OK;
 }
 
 Test(polish, an_algorithm_that_loses_its_way_is_stopped_and_told)
 {
-    const char *const by[] = {"mma", "auglag"};
-    for (int k = 0; k < 2; k++) {
+    const char *const by[] = {"slsqp", "mma", "ccsa"};
+    for (int k = 0; k < 3; k++) {
         given g = {.evaluate = overflowing,
                    .n = 2,
                    .m = 1,
                    .lower = {-2, -2},
                    .upper = {4, 4},
                    .start = {3.1, 2.3},
-                   .equality = {true},
                    .gradients = true};
         ves_search_options o = only_polish(by[k]);
         ves_search_result *r;

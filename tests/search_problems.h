@@ -17,6 +17,7 @@ typedef struct given {
     int n, m;
     double lower[MOST], upper[MOST], start[MOST];
     bool equality[MOST];
+    double tolerance; /* 0: 1e-6 */
     bool gradients;
     int workers;
     void *data;
@@ -31,6 +32,7 @@ static inline ves_status run(const given *g, const ves_search_options *options, 
                                   .upper = g->upper,
                                   .start = g->start,
                                   .equality = g->equality,
+                                  .tolerance = g->tolerance,
                                   .gradients = g->gradients,
                                   .workers = g->workers,
                                   .evaluate = g->evaluate,

@@ -61,8 +61,8 @@ typedef struct ves_anneal {
     double weight; /* penalty per unit of violation; 0: from the data, grown while the best is infeasible */
 } ves_anneal;
 
-/* NLopt local search on scaled quantities: variables in [0, 1], objective over its largest slope, constraints
- * as they are. 0 (NULL, false) is the default of everything. */
+/* NLopt local search on scaled quantities: variables in [0, 1], objective over its largest slope,
+ * constraints over theirs. 0 (NULL, false) is the default of everything. */
 typedef struct ves_polish {
     const char *algorithm; /* slsqp mma ccsa cobyla bobyqa sbplx auglag; NULL: by gradients and constraints */
     long evaluations;      /* budget of the stage, proofs too; 0: from the number of variables */

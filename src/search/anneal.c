@@ -119,10 +119,11 @@ static ves_status warm(anneal *a)
     double width = spread(a->value, count);
     double typical = median_violation(a->violation, count, session->tolerance);
     if (!(width > 0)) width = fmax(1e-3 * fabs(session->end[0].point.verdict.value), 1e-12);
-    double weight = options->weight > 0 ? options->weight : 2 * width / (typical > 0 ? typical : 1);
+    double weight =
+        options->weight > 0 ? options->weight : 2 * width / (typical > 0 ? typical : session->usual);
     double c0 = options->c0 > 0 ? options->c0 : 0.3 * width;
     session->spread = width;
-    session->price = fmax(session->price, weight);
+    for (int j = 0; j < session->m; j++) session->price[j] = fmax(session->price[j], weight);
     place(a, weight, width);
     long left = a->budget - (session->evaluations - a->before) - a->proofs;
     a->schedule->init(options, c0, session->n, left / a->chains, &a->cooling);

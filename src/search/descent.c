@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Scaling is what decides whether SQP works: F = (f - f_0) / max_i |df/du_i|, u in the unit box, constraints
- * as they are. What NLopt returns is not looked at but for the reason: the best is what we have seen
- * ourselves. */
+/* Scaling is what decides whether SQP works: F = (f - f_0) / max_i |df/du_i|, u in the unit box, c / max(|c_0|,
+ * max_i |dc/du_i|): a constraint may be told in any units, if only its tolerance is told in them too. What
+ * NLopt returns is not looked at but for the reason: the best is what we have seen ourselves. */
 
 enum { RESTARTS = 5 };
 
@@ -86,8 +86,9 @@ bool ves_descent_create(ves_descent *d, ves_session *session, int member, const 
                        &d->first_mended, &d->last.gradient};
     for (int k = 0; k < 9; k++)
         if (!(*rows[k] = ves_arena_take(arena, n, sizeof(double)))) return false;
-    double **columns[] = {&d->measured, &d->shifted_constraint, &d->last.constraint, &d->multiplier};
-    for (int k = 0; k < 4; k++)
+    double **columns[] = {&d->measured, &d->shifted_constraint, &d->last.constraint, &d->multiplier, &d->size,
+                          &d->price};
+    for (int k = 0; k < 6; k++)
         if (!(*columns[k] = ves_arena_take(arena, m, sizeof(double)))) return false;
     d->last.jacobian = ves_arena_take(arena, m * n, sizeof(double));
     for (int i = 0; i < session->n; i++)
@@ -299,9 +300,10 @@ static void constraints(ves_descent *d, const int *index, unsigned count, double
     bool failed = status != VES_OK || d->last.status != VES_OK;
     for (unsigned k = 0; k < count; k++) {
         int j = index[k];
-        result[k] = failed ? d->measured[j] : d->last.constraint[j];
+        result[k] = (failed ? d->measured[j] : d->last.constraint[j]) / d->size[j];
         for (unsigned i = 0; gradient && i < n; i++)
-            gradient[k * n + i] = failed ? 0 : d->last.jacobian[j * (int)n + (int)i] * d->range[i];
+            gradient[k * n + i] =
+                failed ? 0 : d->last.jacobian[j * (int)n + (int)i] * d->range[i] / d->size[j];
     }
 }
 
@@ -337,6 +339,14 @@ static bool bounds(ves_descent *d)
     return ok && nlopt_set_upper_bounds(d->opt, wall) > 0;
 }
 
+/* What a violation may be and still be rounding, as NLopt sees it. */
+static double *limits(ves_descent *d, const int *index, int count)
+{
+    double *limit = d->shifted_constraint; /* spare here, and NLopt copies */
+    for (int k = 0; k < count; k++) limit[k] = d->session->tight / d->size[index[k]];
+    return limit;
+}
+
 static bool set_up(ves_descent *d, double step, double factor)
 {
     d->opt = nlopt_create(d->recipe.id, (unsigned)d->session->n);
@@ -344,14 +354,13 @@ static bool set_up(ves_descent *d, double step, double factor)
     bool ok = nlopt_set_min_objective(d->opt, objective, d) > 0 && bounds(d);
     ok = ok && tolerances(d, d->opt, factor);
     if (!d->recipe.gradient) ok = ok && nlopt_set_initial_step1(d->opt, fmin(step, 0.4 * d->reach)) > 0;
-    double *limit = d->shifted_constraint; /* spare here, and NLopt copies */
-    for (int j = 0; j < d->session->m; j++) limit[j] = d->session->tight;
     if (d->recipe.dual) ok = ok && nlopt_set_param(d->opt, "dual_maxeval", DUAL_STEPS) > 0;
     if (d->inequalities)
-        ok = ok &&
-             nlopt_add_inequality_mconstraint(d->opt, (unsigned)d->inequalities, inequalities, d, limit) > 0;
+        ok = ok && nlopt_add_inequality_mconstraint(d->opt, (unsigned)d->inequalities, inequalities, d,
+                                                    limits(d, d->inequality, d->inequalities)) > 0;
     if (d->equalities)
-        ok = ok && nlopt_add_equality_mconstraint(d->opt, (unsigned)d->equalities, equalities, d, limit) > 0;
+        ok = ok && nlopt_add_equality_mconstraint(d->opt, (unsigned)d->equalities, equalities, d,
+                                                  limits(d, d->equality, d->equalities)) > 0;
     return ok;
 }
 
@@ -365,18 +374,25 @@ static double steepest(const ves_descent *d)
     return most;
 }
 
-/* A multiplier is about the slope of f over that of the constraint; ten times that, for the flattest
- * constraint. */
-static double fair_price(const ves_descent *d)
+double ves_descent_slope(const ves_descent *d, int j)
 {
-    double flattest = 1;
+    double most = 0;
     int n = d->session->n;
-    for (int j = 0; d->sloped && j < d->session->m; j++) {
-        double most = 0;
-        for (int i = 0; i < n; i++) most = fmax(most, fabs(d->last.jacobian[j * n + i]) * d->range[i]);
-        if (most > 1e-3 && most < flattest) flattest = most;
-    }
-    return 10 * d->first_scale / flattest;
+    for (int i = 0; i < n; i++) most = fmax(most, fabs(d->last.jacobian[j * n + i]) * d->range[i]);
+    return most;
+}
+
+/* A multiplier is about the slope of f over that of the constraint, but many times that where constraints are
+ * nearly parallel, or the slopes at the end are not those at the start. */
+static void set_price(ves_descent *d)
+{
+    for (int j = 0; j < d->session->m; j++) d->price[j] = 1000 * d->first_scale / d->size[j];
+}
+
+static void resize(ves_descent *d)
+{
+    for (int j = 0; d->sloped && d->last.status == VES_OK && j < d->session->m; j++)
+        d->size[j] = fmax(fmax(ves_descent_slope(d, j), fabs(d->last.constraint[j])), d->session->tolerance);
 }
 
 /* Scales f at u. A restart near a minimum keeps a part of the first scale: there the slopes are all but gone. */
@@ -390,9 +406,10 @@ static ves_status rescale(ves_descent *d, const double *u, bool first)
     if (first) {
         d->first_scale = most > 1e-12 * size ? most : size > 0 ? size : 1;
         d->scale = d->first_scale;
-        d->price = fair_price(d);
     } else
         d->scale = fmax(most, 1e-3 * d->first_scale);
+    resize(d);
+    if (first) set_price(d);
     d->offset = d->last.value;
     d->lowest = d->highest = 0;
     return VES_OK;
@@ -424,10 +441,14 @@ static bool progressed(const ves_descent *d, const ves_verdict *before, const ve
 static void forget(ves_descent *d, const ves_point *start)
 {
     ves_point_copy(&d->best, start, d->session->n, d->session->m);
-    for (int j = 0; j < d->session->m; j++) d->measured[j] = start->verdict.constraint[j];
+    for (int j = 0; j < d->session->m; j++) {
+        d->measured[j] = start->verdict.constraint[j];
+        d->size[j] = d->session->usual;
+        d->price[j] = 0;
+    }
     d->halted = d->spent = d->asked = false;
     d->scale = d->shrink = d->reach = 1;
-    d->offset = d->lowest = d->highest = d->price = d->penalty = 0;
+    d->offset = d->lowest = d->highest = d->penalty = 0;
 }
 
 /* A run that ends at a candidate that failed, or squeezed against one, has not converged, whatever NLopt

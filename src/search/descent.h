@@ -44,8 +44,10 @@ typedef struct ves_descent {
 
     double offset, scale; /* NLopt sees (f - offset) / scale */
     double first_scale;
-    double price; /* of f for a unit of violation within the tolerance: more than any multiplier is likely to
-                     be */
+    double *size; /* [m] and constraint / size: so NLopt sees all alike, whatever their units */
+    double
+        *price; /* [m] of f for a unit of violation within the tolerance: more than any multiplier is likely
+                      to be */
     double lowest, highest; /* of what NLopt was told, but for failures */
     double *multiplier;     /* [m] of an augmented Lagrangian; its penalty; 0: none runs */
     double penalty;
@@ -69,6 +71,9 @@ const char *ves_descent_sentence(const ves_descent *descent);
 /* Judges u (unit box), once; the answer is in descent->last. A candidate that fails is last.status > 0.
  * VES_INTERRUPTED also when the budget is spent; VES_NO_NUMBER for a u that is none: nothing was asked. */
 ves_status ves_descent_look(ves_descent *descent, const double *u, bool slopes);
+
+/* The steepest slope of constraint j at what was last looked at with slopes, across the box. */
+double ves_descent_slope(const ves_descent *descent, int j);
 
 /* Copies what was last judged into a point. */
 void ves_descent_keep(const ves_descent *descent, ves_point *point);

@@ -11,17 +11,17 @@
 
 enum { ROUNDS = 40 };
 
-static const double first_penalty = 10, most_penalty = 1e5, faster = 10, enough = 0.3;
+static const double first_penalty = 10, most_penalty = 1e8, faster = 10, enough = 0.3;
 
 static bool held(const ves_descent *d, int j)
 {
     return d->hold[j] == VES_HOLD_BELOW || d->hold[j] == VES_HOLD_EQUAL;
 }
 
-/* What the constraint pulls with: lambda + r c, not negative for an inequality. */
+/* What the constraint pulls with: lambda + r c, c over its size, not negative for an inequality. */
 static double pull(const ves_descent *d, int j)
 {
-    double t = d->multiplier[j] + d->penalty * d->last.constraint[j];
+    double t = d->multiplier[j] + d->penalty * d->last.constraint[j] / d->size[j];
     return d->hold[j] == VES_HOLD_EQUAL || t > 0 ? t : 0;
 }
 
@@ -40,7 +40,7 @@ double ves_lagrange_slope(const ves_descent *d, int i)
 {
     double sum = 0;
     for (int j = 0; j < d->session->m; j++)
-        if (held(d, j)) sum += pull(d, j) * d->last.jacobian[j * d->session->n + i];
+        if (held(d, j)) sum += pull(d, j) * d->last.jacobian[j * d->session->n + i] / d->size[j];
     return sum;
 }
 
@@ -51,7 +51,7 @@ static double update(ves_descent *d)
     for (int j = 0; j < d->session->m; j++) {
         if (!held(d, j)) continue;
         double t = pull(d, j);
-        worst = fmax(worst, fabs(t - d->multiplier[j]) / d->penalty);
+        worst = fmax(worst, fabs(t - d->multiplier[j]) / d->penalty * d->size[j]);
         d->multiplier[j] = t;
     }
     return worst;

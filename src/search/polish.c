@@ -295,14 +295,18 @@ static int population(const ves_session *session, const ves_polish *options, lon
     return most < 1 ? 1 : wanted < most ? wanted : (int)most;
 }
 
-static void set_price(polish *p)
+/* What descents have seen of the slopes: the least they agree on. */
+static void raise_price(polish *p)
 {
-    double least = HUGE_VAL;
-    for (int k = 0; k < p->tasks; k++) {
-        double price = p->task[k].descent.price;
-        if (price > 0 && price < least) least = price;
+    ves_session *session = p->session;
+    for (int j = 0; j < session->m; j++) {
+        double least = HUGE_VAL;
+        for (int k = 0; k < p->tasks; k++) {
+            double price = p->task[k].descent.price[j];
+            if (price > 0 && price < least) least = price;
+        }
+        if (least < HUGE_VAL) session->price[j] = fmax(session->price[j], least);
     }
-    if (least < HUGE_VAL) p->session->price = least;
 }
 
 ves_status ves_polish_run(ves_session *session, const ves_polish *options, long budget)
@@ -318,7 +322,7 @@ ves_status ves_polish_run(ves_session *session, const ves_polish *options, long 
     if (!options->stay && session->problem->gradients && session->n > VES_SADDLE_MOST)
         ves_session_note(session, "no check for saddles: more than %d variables", VES_SADDLE_MOST);
     ves_status status = work(&p);
-    if (session->price == 0) set_price(&p);
+    raise_price(&p);
     if (status == VES_OK) {
         tell_stop(&p, options);
         note_saddles(&p);

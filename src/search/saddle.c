@@ -14,7 +14,7 @@
 
 static const double step = 2e-5;       /* in u: truncation ~ 1e-10, noise of a gradient / 2e-5 */
 static const double near_wall = 1e-9;  /* in u */
-static const double near_limit = 1e-6; /* scaled excess of an active constraint */
+static const double near_limit = 1e-6; /* in u: an active constraint is so near, or within the tolerance */
 static const double clear = 1e-5;      /* a negative eigenvalue counts beyond this part of the largest */
 static const double sideways =
     1e-6;                         /* of a unit direction, across a wall or a constraint: it runs along it */
@@ -120,9 +120,10 @@ static int wrong(const ves_saddle *s, const ves_descent *d)
 static void multipliers(ves_saddle *s, const ves_descent *d)
 {
     int rows = 0;
-    double limit = fmax(near_limit, d->session->tolerance);
-    for (int j = 0; j < d->session->m; j++)
+    for (int j = 0; j < d->session->m; j++) {
+        double limit = fmax(near_limit * ves_descent_slope(d, j), d->session->tolerance);
         if (ves_session_equality(d->session, j) || d->last.constraint[j] >= -limit) s->touched[rows++] = j;
+    }
     s->near = rows;
     for (;;) {
         memcpy(s->row, s->touched, (size_t)rows * sizeof(int));

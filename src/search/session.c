@@ -14,6 +14,7 @@ ves_status ves_session_init(ves_session *session, const ves_search_problem *prob
     if (hooks) session->hooks = *hooks;
     session->tolerance = problem->tolerance > 0 ? problem->tolerance : VES_FEASIBLE;
     session->tight = 1e-4 * session->tolerance;
+    session->usual = session->tolerance / VES_FEASIBLE;
     session->seen = (ves_verdict){.status = VES_NO_NUMBER, .value = HUGE_VAL, .violation = HUGE_VAL};
     session->temperature = session->acceptance = NAN;
     session->ending = VES_ENDED_BUDGET;
@@ -24,7 +25,8 @@ ves_status ves_session_init(ves_session *session, const ves_search_problem *prob
     session->pool = ves_pool_create(problem->workers);
     session->known =
         ves_arena_take(&session->arena, (size_t)VES_PROOFS_KNOWN * (size_t)session->n, sizeof(double));
-    bool ok = session->pool && session->known &&
+    session->price = ves_arena_take(&session->arena, (size_t)session->m, sizeof(double));
+    bool ok = session->pool && session->known && session->price &&
               ves_point_create(&session->arena, session->n, session->m, &session->start) &&
               ves_point_create(&session->arena, session->n, session->m, &session->best);
     return ok ? VES_OK : VES_MEMORY;
@@ -58,13 +60,23 @@ bool ves_session_equality(const ves_session *session, int j)
     return session->problem->equality && session->problem->equality[j];
 }
 
-bool ves_session_better_at(const ves_session *session, double price, const ves_verdict *a,
+static double priced(const ves_session *session, const double *price, const ves_verdict *v)
+{
+    double sum = v->value;
+    for (int j = 0; j < session->m; j++) {
+        double excess = ves_session_equality(session, j) ? fabs(v->constraint[j]) : v->constraint[j];
+        if (excess > session->tight) sum += price[j] * (excess - session->tight);
+    }
+    return sum;
+}
+
+bool ves_session_better_at(const ves_session *session, const double *price, const ves_verdict *a,
                            const ves_verdict *b)
 {
     bool both = a->status == VES_OK && b->status == VES_OK && a->violation <= session->tolerance &&
                 b->violation <= session->tolerance;
     if (!both) return ves_verdict_better(a, b, session->tolerance);
-    return ves_verdict_energy(a, price, session->tight) < ves_verdict_energy(b, price, session->tight);
+    return priced(session, price, a) < priced(session, price, b);
 }
 
 bool ves_session_better(const ves_session *session, const ves_verdict *a, const ves_verdict *b)

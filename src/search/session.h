@@ -56,6 +56,7 @@ struct ves_session {
     int n, m;
     double tolerance; /* feasible */
     double tight;     /* violations below this are rounding */
+    double usual;     /* size of a constraint of which nothing is known: 1 for the usual tolerance */
     uint64_t seed;
     ves_arena arena; /* scratch of the search */
     ves_arena kept;  /* what the result points to */
@@ -74,8 +75,9 @@ struct ves_session {
     long evaluations, gradients, failed, refused;
     long told;        /* events handed to the hooks */
     ves_verdict seen; /* best told so far */
-    double price;     /* objective per unit of violation: what a violation within the tolerance may not buy */
-    double spread;    /* of the objective, from the warm-up; 0: unknown */
+    double
+        *price; /* [m] objective per unit of violation: what a violation within the tolerance may not buy */
+    double spread; /* of the objective, from the warm-up; 0: unknown */
     bool refusal[VES_STATUS_KINDS];
     double *known; /* [VES_PROOFS_KNOWN][n] the points that were refused last, in the unit box */
 
@@ -100,10 +102,10 @@ bool ves_session_over(ves_session *session);
 long ves_session_left(const ves_session *session); /* evaluations, but for those kept for the end */
 bool ves_session_equality(const ves_session *session, int j); /* is constraint j one */
 
-/* The order of all searches, with a price on violations that are within the tolerance but more than rounding:
- * else the best would always be the one that uses the tolerance up. */
+/* The order while a search runs: that of verdicts, with a price on violations that are within the tolerance but
+ * more than rounding, else the best would always be the one that uses the tolerance up. */
 bool ves_session_better(const ves_session *session, const ves_verdict *a, const ves_verdict *b);
-bool ves_session_better_at(const ves_session *session, double price, const ves_verdict *a,
+bool ves_session_better_at(const ves_session *session, const double *price, const ves_verdict *a,
                            const ves_verdict *b);
 void ves_session_sort(const ves_session *session, ves_end *end, int count);
 
