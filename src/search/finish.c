@@ -9,6 +9,8 @@ static const double near = 1e-3;    /* of the ranges: the same optimum */
 static const double level = 1e-6;   /* relative: values that may belong to one flat optimum */
 static const double barrier = 1e-9; /* relative: what lies between two points of one basin */
 
+enum { HALVINGS = 17 }; /* of a way through the box, until points are one shape: 1e-5 */
+
 typedef struct box {
     ves_search_result result; /* first: what the caller holds */
     ves_arena arena;
@@ -142,8 +144,83 @@ static ves_status offer(ves_session *session, long *proofs)
     long before = session->evaluations, most = ves_session_over(session) ? VES_PROOFS_ROUND : VES_PROOFS / 2;
     if (most > spare(session)) most = spare(session);
     VES_TRY(ves_session_offer(session, point, count, most, refused));
+    /* ends that are refused do not shut out the start, which people have looked at */
+    if (session->best.verdict.status != VES_OK && session->start.verdict.status == VES_OK)
+        VES_TRY(ves_session_offer(session, &point[count - 1], 1, spare(session) > 0, refused));
     *proofs = VES_PROOFS - (session->evaluations - before);
     return VES_OK;
+}
+
+/* The best of the ends that is better than all that was proved: none of them passed. */
+static const ves_point *refused_best(const ves_session *session)
+{
+    const ves_point *best = NULL;
+    for (int k = 0; k < session->ends; k++) {
+        const ves_point *p = &session->end[k].point;
+        if (!ves_session_better(session, &p->verdict, best ? &best->verdict : &session->best.verdict))
+            continue;
+        if (!ves_session_costs(session, p)) best = p;
+    }
+    return best;
+}
+
+/* Judges and, where it is better than the proved best, proves the point at t of the way to what was refused.
+ * on: go on beyond it. */
+static ves_status step_towards(ves_session *session, ves_asker *asker, ves_point *point, bool *on)
+{
+    ves_ask ask = {.x = point->x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+    ves_proof proof = VES_PROOF_REFUSED;
+    VES_TRY(ves_asker_judge(asker, &ask, &point->verdict));
+    ves_asker_record(asker, point->x, &point->verdict, false, NAN, false);
+    ves_asker_flush(asker);
+    const ves_verdict *v = &point->verdict;
+    bool good =
+        v->status == VES_OK && v->violation <= fmax(session->tolerance, session->best.verdict.violation);
+    *on = good;
+    if (!good || !ves_session_better(session, v, &session->best.verdict)) return VES_OK;
+    point->proved = false;
+    VES_TRY(ves_session_prove(session, point, &proof));
+    *on = proof == VES_PROOF_PASSED;
+    if (*on) ves_point_copy(&session->best, point, session->n, session->m);
+    return VES_OK;
+}
+
+/* Between the proved best and the best that was refused lies an edge of what passes: by halves, the best
+ * design this side of it. */
+static ves_status retreat(ves_session *session)
+{
+    const ves_point *refused = refused_best(session);
+    if (!refused || session->best.verdict.status != VES_OK || !session->refused) return VES_OK;
+    ves_point point;
+    double *from = ves_arena_take(&session->arena, (size_t)session->n, sizeof *from);
+    if (!from || !ves_point_create(&session->arena, session->n, session->m, &point)) return VES_MEMORY;
+    memcpy(from, session->best.u, (size_t)session->n * sizeof *from);
+    ves_asker asker;
+    ves_asker_init(&asker, session, -1);
+    ves_status status = VES_OK;
+    double low = 0, high = 1;
+    for (int k = 0; k < HALVINGS && spare(session) > 1 && status == VES_OK && !ves_session_over(session);
+         k++) {
+        double t = (low + high) / 2;
+        bool on;
+        for (int i = 0; i < session->n; i++) point.u[i] = from[i] + t * (refused->u[i] - from[i]);
+        ves_point_place(session->problem, point.u, point.x);
+        status = step_towards(session, &asker, &point, &on);
+        *(on ? &low : &high) = t;
+    }
+    ves_asker_flush(&asker);
+    ves_asker_destroy(&asker);
+    return status == VES_INTERRUPTED ? VES_OK : status;
+}
+
+/* When better ones than the best were refused, what the last stage says of its end does not hold of it. */
+static void tell_refused(ves_session *session)
+{
+    const ves_point *refused = refused_best(session);
+    if (!refused || session->best.verdict.status != VES_OK) return;
+    ves_session_note(session, "better designs were refused: this is the best that passed, sought by halves "
+                              "on the way to them; it need be no optimum");
+    ves_session_stop(session, session->ending, "%s; but its end was refused by its proof", session->stop);
 }
 
 /* The best that may be shown: proved or, when nothing passes, the best all the same, as infeasible. */
@@ -151,6 +228,8 @@ static ves_status choose(ves_session *session, const ves_point **best, bool *pro
 {
     ves_point *start = &session->start;
     VES_TRY(offer(session, proofs));
+    VES_TRY(retreat(session));
+    tell_refused(session);
     *proved = session->best.verdict.status == VES_OK;
     *best = *proved ? &session->best : start;
     if (*proved || start->verdict.status != VES_OK) return VES_OK;
@@ -234,7 +313,6 @@ static ves_status fill(box *b, ves_session *session)
         session->ending = VES_ENDED_STOPPED;
         session->stop = ves_status_text(VES_INTERRUPTED);
     }
-    if (proved && !feasible) ves_session_note(session, "no feasible candidate was found");
     if (session->fault) return session->fault;
     bool ok = fill_best(r, session, best, feasible) && fill_optima(r, session, &c) && fill_logs(r, session);
     return ok ? VES_OK : VES_MEMORY;
