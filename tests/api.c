@@ -174,25 +174,6 @@ static ves_plan *plan_make(const ves_problem *problem)
 }
 
 /* V = pi r^2 h and A = 2 pi r (r + h), to rounding: cylinders and discs are met exactly. */
-/* Neither drowns the other: a host may keep one diag for all it does. */
-Test(api, a_full_diag_keeps_errors_and_remarks_apart)
-{
-    ves_diag *diag = ves_diag_create();
-    for (int k = 0; k < VES_DIAG_REMARKS + 1; k++)
-        ves_diag_add(diag, VES_WARNING, VES_RANGE, (ves_mark){0}, "w%d", k);
-    for (int k = 0; k < VES_DIAG_ERRORS + 1; k++)
-        ves_diag_add(diag, VES_ERROR, VES_RANGE, (ves_mark){0}, "e%d", k);
-    int last = VES_DIAG_REMARKS + VES_DIAG_ERRORS - 1;
-    char text[40];
-    cr_expect(ves_diag_count(diag) == last + 1 && ves_diag_errors(diag) == VES_DIAG_ERRORS + 1);
-    ves_diag_text(diag, last, text, sizeof text);
-    cr_expect_str_eq(text, "error: e99");
-    ves_problem *problem;
-    cr_expect_eq(ves_problem_read_text("g.yaml", SOLVED, strlen(SOLVED), NULL, &problem, diag), VES_OK);
-    ves_problem_destroy(problem);
-    ves_diag_destroy(diag);
-}
-
 Test(api, a_plan_gives_values_and_gradients)
 {
     ves_problem *problem = read_file("bottle");
@@ -384,6 +365,24 @@ Test(api, a_run_says_why_it_ended)
         cr_expect(l.begun == 1 && l.heard > 0);
         ves_run_destroy(run);
     }
+    ves_problem_destroy(problem);
+}
+
+static bool at_once(void *data)
+{
+    (void)data;
+    return true;
+}
+
+Test(api, a_run_that_is_stopped_before_it_begins_has_its_start)
+{
+    ves_problem *problem = read_file("bottle");
+    ves_run *run;
+    ves_run_hooks hooks = {.stopped = at_once};
+    cr_assert_eq(ves_run_create(problem, NULL, &hooks, &run, NULL), VES_OK);
+    cr_expect(run->ending == VES_ENDED_STOPPED && run->any && !run->feasible);
+    cr_expect(run->best.objective == run->start.objective);
+    ves_run_destroy(run);
     ves_problem_destroy(problem);
 }
 

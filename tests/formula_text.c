@@ -174,7 +174,7 @@ Test(formula_text, syntax_errors_point_at_the_place_and_help)
         {"a && b", VES_SYNTAX, 2, 2, "write \"and\""},
         {"a || b", VES_SYNTAX, 2, 2, "write \"or\""},
         {"|a|", VES_SYNTAX, 0, 1, "write \"or\", or abs(x)"},
-        {"!a", VES_SYNTAX, 0, 1, "write \"not\""},
+        {"!a", VES_SYNTAX, 0, 1, "write \"not\"; there is no factorial"},
         {"a => b", VES_SYNTAX, 2, 2, "write >="},
         {"a ? b : c", VES_SYNTAX, 2, 1, "write if(condition, a, b)"},
         {"a % b", VES_SYNTAX, 2, 1, "% must follow a number; the rest of a division is mod(a, b)"},

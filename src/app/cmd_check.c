@@ -115,7 +115,8 @@ static void costs(const checked *c)
     if (said[0] > 0 && said[1] > 0)
         printf(", as the file says");
     else if (isnan(run->change))
-        printf(", not chosen: nothing could be measured");
+        printf(run->any ? ", not chosen: a finer grid could not be measured"
+                        : ", not chosen: nothing could be measured");
     else
         printf(", chosen: half as many again change a measure by %.1e at most", run->change);
     if (!isnan(run->finer_change)) printf("; twice as many by %.1e", run->finer_change);

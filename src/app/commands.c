@@ -11,7 +11,10 @@ const app_command app_commands[] = {
      "when\n"
      "it does not; 2 when the file is wrong. A start that violates a constraint is in order: a search begins "
      "there."},
-    {"eval", "eval FILE|RUN", "measure one design", 1, 1, PROBLEM, app_eval, NULL},
+    {"eval", "eval FILE|RUN", "measure one design", 1, 1, PROBLEM, app_eval,
+     "feasible: the constraints hold. Whether the surface crosses itself and a finer grid agrees is looked "
+     "at by\n"
+     "`vesica check`, and by a run for its bests."},
     {"sample", "sample FILE|RUN", "exact points and derivatives of one patch, as CSV", 1, 1,
      "set|start|plugin|patch|points|spine", app_sample,
      "u runs from 0 to 1 along the patch and v from 0 to 2 pi round it, also where a `domain` gives the "

@@ -1,4 +1,4 @@
-/* Ctrl-C. The one mutable static of vesica: a signal handler may write nothing but a volatile sig_atomic_t
+/* Ctrl-C, and what else asks a program to end: SIGTERM, a terminal that is closed. The one mutable static of vesica: a signal handler may write nothing but a volatile sig_atomic_t
  * that it can name. */
 #include <signal.h>
 
@@ -19,6 +19,7 @@ void app_interrupt_listen(void)
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGHUP, &action, NULL);
 }
 
 bool app_interrupt_asked(void)

@@ -313,13 +313,15 @@ static void plugins(const ves_problem *p, FILE *out)
 
 static void conclusion(const ves_run *run, FILE *out)
 {
-    if (run->ending == VES_ENDED_STOPPED) fputs("\n  interrupted: this is the best so far\n", out);
+    bool stopped = run->ending == VES_ENDED_STOPPED;
+    if (stopped) fputs("\n  interrupted: this is the best so far\n", out);
     if (!run->any)
         fputs("\n  no design could be measured\n", out);
     else if (!run->feasible && run->best.violation > 0)
         fprintf(out, "\n  no design met all constraints: the least violation is %.2g\n", run->best.violation);
     else if (!run->feasible)
-        fputs("\n  the result did not pass its checks (see above)\n", out);
+        fprintf(out, "\n  the result %s\n",
+                stopped ? "has not passed its checks" : "did not pass its checks (see above)");
     if (!run->folder) return;
     fprintf(out, "\n  %s/   %sstart.vtp  result.json  %slog.txt\n", run->folder,
             run->any ? "best.vtp  best.png  " : "", run->searched ? "trace.jsonl  " : "");

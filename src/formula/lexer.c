@@ -20,7 +20,7 @@ static const struct {
     {"=>", "write >="},
     {"<>", "write !="},
     {"=", "write == to compare"},
-    {"!", "write \"not\""},
+    {"!", "write \"not\"; there is no factorial"},
     {"?", "write if(condition, a, b)"},
     {":", "write if(condition, a, b)"},
     {"\xC2\xB2", "write ^2"},

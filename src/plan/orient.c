@@ -120,18 +120,19 @@ static ves_status caps_check(const ves_plan *plan, ves_diag *diag)
 static ves_status open_end(const ves_plan *plan, int patch, int end, beyond what, ves_diag *diag)
 {
     const ves_problem *p = plan->problem;
+    int curve = ves_end_curve(plan, patch, end);
     char hint[HINT] = "";
     ves_end other;
     double gap;
     if (what == FREE && ves_edge_near(plan, patch, end, &other, &gap))
         snprintf(hint, sizeof hint, "; it is at most %.3g%s from \"%.64s.u%d\": both should use one curve",
                  gap, p->units ? " m" : "", p->patch[other.patch].name, other.end);
-    return ves_diag_add(
-        diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
-        "the shape is not closed: \"%s.u%d\" is %s; let one other patch end on the same curve, "
-        "end it in a point, or close it with caps: [%s.u%d]%s",
-        p->patch[patch].name, end, what == BRANCHED ? "shared by more than two ends" : "free",
-        p->patch[patch].name, end, hint);
+    return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
+                        "the shape is not closed: \"%s.u%d\" is %s; %s or close it with caps: [%s.u%d]%s",
+                        p->patch[patch].name, end, what == BRANCHED ? "shared by more than two ends" : "free",
+                        curve < 0 ? "a surface that is given is joined to no other patch: end it in a point"
+                                  : "let one other patch end on the same curve, end it in a point,",
+                        p->patch[patch].name, end, hint);
 }
 
 /* A closed shape has two sides and no free edge. */

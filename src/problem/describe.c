@@ -64,6 +64,12 @@ const ves_term ves_describe_terms[] = {
     {"gradients", CHECK, "how many of them with their gradient", "expect: [gradients > 0]"},
     {"optima", CHECK, "how many different optima the search has found and lists, the best included",
      "expect: [optima >= 2]"},
+    {"saddle", "a word of results",
+     "an optimum from which a direction of negative curvature leads lower: no minimum; searches leave it "
+     "where they can",
+     "polish: {escape: true}"},
+    {"hits", "a word of results", "how many descents ended in an optimum (screen: found ... times)",
+     "result.json: optima[0].hits"},
     {0}};
 #undef POINT
 #undef CHECK

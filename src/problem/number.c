@@ -299,8 +299,9 @@ long ves_reader_count(ves_reader *reader, const ves_node *node, const ves_key *k
 {
     ves_key plain = *key;
     plain.unit = "1";
+    int before = reader->errors;
     double value = ves_reader_constant(reader, node, &plain);
-    if (isnan(value)) return 0;
+    if (isnan(value) || reader->errors > before) return 0;
     if (value == floor(value) && fabs(value) <= 9007199254740992.0) return (long)value;
     if (value == floor(value))
         ves_reader_error(reader, VES_RANGE, node,

@@ -83,7 +83,7 @@ static const ves_entry patch_keys[] = {
     {{"operator", KIND(VES_MAP), .about = "the partial differential equation: (d_uu + a^2 d_vv)^power X = 0"}, "operator: {power: 2, a: 1}", operator_keys},
     {{"conditions", KIND(VES_LIST), .about = "what the surface meets at its ends: 2 * power of them"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
     {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved exactly; 0: all that matter at the start, at least 40; the rest goes into the remainder"}, "modes: 8", NULL},
-    {{"surface", KIND(VES_MAP), .about = "instead of operator and conditions: the surface itself; edges that lie on each other are joined"}, "surface: {formula: [u, v, \"u*v\"]}", surface_keys},
+    {{"surface", KIND(VES_MAP), .about = "instead of operator and conditions: the surface itself; edges of it that lie on each other are joined, but not with those of other patches"}, "surface: {formula: [u, v, \"u*v\"]}", surface_keys},
     {{"periodic", VES_FLAG, .fallback = 1, .about = "the surface closes in v (only with surface)"}, "periodic: false", NULL},
     {{"domain", KIND(VES_MAP), .about = "what u and v run over in the formulas of the surface, and of integral, min and max over it; places, vesica sample and files count u 0 to 1 and v 0 to 2*pi whatever stands here (only with surface: formula)"}, "domain: {u: [0, 1], v: [0, 2*pi]}", domain_keys},
     LATER("spine", "a centre line that is given"),
@@ -112,7 +112,6 @@ static const ves_entry end[] = {
 static const ves_entry shape_keys[] = {
     {{"closed", VES_FLAG, .about = "the patches, with the caps, enclose a volume"}, "closed: true", NULL},
     {{"caps", KIND(VES_LIST), .about = "free ends that are closed: by the cone from the mean point of the end, which for a flat end is the flat piece inside it"}, "caps: [wall.u0, wall.u1]", end},
-    LATER("joins", "joins that are made rather than found by shared curves"),
     END};
 
 static const ves_entry scale_keys[] = {

@@ -338,7 +338,7 @@ static ves_status result_take(study *s, const ves_search_result *r)
 {
     ves_run *run = s->run;
     run->ending = r->ending;
-    run->any = r->any;
+    run->any = r->any || run->start.status == VES_OK; /* a search may be stopped before it has begun */
     run->evaluations += r->evaluations;
     run->gradients += r->gradients;
     if (words_take(s, r) != VES_OK || counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK)

@@ -9,7 +9,7 @@
 
 /* Room for the words and the fixed numbers of a line, and for each variable: a line of the tube with 17
  * variables has about 300 bytes. */
-enum { FIXED = 400, EACH = 24 };
+enum { FIXED = 400, EACH = 28 };
 
 /* Lines of a short trace before it takes but every second of what it took. */
 enum { THIN = 2500 };
@@ -50,8 +50,7 @@ static size_t number(char *at, const char *key, double value, const char *format
     return length + (size_t)snprintf(at + length, EACH, format, value);
 }
 
-/* Nine digits of x are enough to see where a search has been and keep the file small; the best stands in
- * result.json with all of them. */
+/* x and value with all their digits: what has been traced can be measured again. */
 static size_t compose(const ves_tracer *tracer, const ves_record *r, char *at)
 {
     const char *begin = at;
@@ -59,9 +58,9 @@ static size_t compose(const ves_tracer *tracer, const ves_record *r, char *at)
     at += snprintf(at, FIXED / 2, "{\"evaluation\":%ld,\"stage\":%d,\"chain\":%d,\"x\":[", r->evaluation,
                    r->stage, r->chain);
     for (int k = 0; k < tracer->problem->variables; k++)
-        at += snprintf(at, EACH, k ? ",%.9g" : "%.9g", r->x[k]);
+        at += snprintf(at, EACH, k ? ",%.17g" : "%.17g", r->x[k]);
     *at++ = ']';
-    at += number(at, "value", r->status == VES_OK ? sign * r->value : NAN, "%.15g");
+    at += number(at, "value", r->status == VES_OK ? sign * r->value : NAN, "%.17g");
     at += number(at, "violation", r->violation, "%.9g");
     at += number(at, "T", r->temperature, "%.9g");
     at += snprintf(at, FIXED / 4, ",\"accepted\":%s,\"status\":\"%s\"}\n", r->accepted ? "true" : "false",

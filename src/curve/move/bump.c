@@ -16,7 +16,11 @@ static const double nothing[3] = {0, 0, 0};
 
 static const ves_key keys[] = {
     {.name = "from", .kind = VES_NUMBER, .required = true, .unit = "1", .about = "angle v where it begins"},
-    {.name = "to", .kind = VES_NUMBER, .required = true, .unit = "1", .about = "angle v where it ends"},
+    {.name = "to",
+     .kind = VES_NUMBER,
+     .required = true,
+     .unit = "1",
+     .about = "angle v where it ends; whole turns do not count, and equal angles mean all the way round"},
     {.name = "by", .kind = VES_VECTOR, .required = true, .about = "[x, y, z] to add in the middle"},
     {.name = NULL},
 };
