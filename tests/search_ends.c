@@ -286,3 +286,121 @@ Test(ends, the_caller_may_know_two_ends_to_be_one_design)
     cr_expect(eq(int, ves_search_run(&p, NULL, NULL, &r), VES_MEMORY));
     cr_expect(r == NULL);
 }
+
+/* f = x + y + sin(9 x) / 4 where x y >= 1 - t: what an annealing alone leaves uses more or less of t up. Proved
+ * points are written down. */
+typedef struct ledger {
+    int asked, stop; /* stop after so many questions; 0: never */
+    int proofs;
+    double proved[64][2];
+} ledger;
+
+static ves_status waves(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    ledger *l = data;
+    double x = ask->x[0], y = ask->x[1], *g = gradient_of(ask, v);
+    (void)worker;
+    l->asked++;
+    v->value = x + y + 0.25 * sin(9 * x);
+    v->constraint[0] = 1e-4 * (1 - x * y); /* t: 0.01 */
+    if ((ask->want & VES_WANT_PROOF) && l->proofs < 64) {
+        l->proved[l->proofs][0] = x;
+        l->proved[l->proofs++][1] = y;
+    }
+    if (!g) return VES_OK;
+    g[0] = 1 + 2.25 * cos(9 * x), g[1] = 1;
+    v->jacobian[0] = -1e-4 * y;
+    v->jacobian[1] = -1e-4 * x;
+    return VES_OK;
+}
+
+static bool enough(void *data)
+{
+    const ledger *l = data;
+    return l->stop && l->asked >= l->stop;
+}
+
+static bool is_proved(const ledger *l, const double *x)
+{
+    for (int k = 0; k < l->proofs; k++)
+        if (l->proved[k][0] == x[0] && l->proved[k][1] == x[1]) return true;
+    return false;
+}
+
+Test(ends, optima_are_listed_by_value_and_the_best_is_the_first)
+{
+    const int stop[] = {0, 0, 900, 3000, 6900};
+    int several = 0;
+    for (int c = 0; c < 5; c++)
+        for (int seed = 1; seed <= 5; seed++) {
+            ledger l = {.stop = stop[c]};
+            given g = {.evaluate = waves,
+                       .n = 2,
+                       .m = 1,
+                       .lower = {0.1, 0.1},
+                       .upper = {4, 5},
+                       .start = {2.5, 3},
+                       .gradients = true,
+                       .data = &l};
+            ves_search_options o = c ? ves_search_options_default() : only_anneal(3000);
+            ves_search_hooks hooks = {.stopped = enough, .data = &l};
+            o.seed = (uint64_t)seed;
+            ves_search_result *r;
+            ves_status status = run(&g, &o, &hooks, &r);
+            cr_assert(eq(int, status, stop[c] && l.asked >= stop[c] ? VES_INTERRUPTED : VES_OK));
+            cr_assert(r->feasible && r->optima > 0, "case %d, seed %d", c, seed);
+            cr_expect(r->value == r->optimum[0].value && r->violation == r->optimum[0].violation);
+            for (int k = 0; k < r->optima; k++) {
+                const ves_optimum *a = &r->optimum[k];
+                cr_expect(a->violation <= 1e-6 && is_proved(&l, a->x), "case %d: %d of %d", c, k, r->optima);
+                cr_expect(k == 0 || a[-1].value <= a->value, "case %d: %.9g before %.9g", c, a[-1].value,
+                          a->value);
+            }
+            several += r->optima > 1;
+            ves_search_result_destroy(r);
+        }
+    cr_expect(several > 5, "%d lists of several", several);
+}
+
+/* ---- more than one start ---- */
+
+static ves_status two_wells(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    double x = ask->x[0], *g = gradient_of(ask, v);
+    (void)data, (void)worker;
+    if (x > 1.8) return VES_DEGENERATE;
+    v->value = (x * x - 1) * (x * x - 1) + 0.1 * x;
+    if (g) g[0] = 4 * x * (x * x - 1) + 0.1;
+    return VES_OK;
+}
+
+Test(ends, a_polish_goes_on_from_every_start)
+{
+    const double lower = -2, upper = 2, start = 0.9, left = -1.2, near = 0.8, lost = 1.9, outside = 2.1;
+    const double *const other[] = {&left, &lost, &near}, *const wrong[] = {&outside};
+    ves_search_problem p = {.n = 1,
+                            .lower = &lower,
+                            .upper = &upper,
+                            .start = &start,
+                            .others = 3,
+                            .other = other,
+                            .gradients = true,
+                            .evaluate = two_wells};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, ves_search_run(&p, &o, NULL, &r), VES_OK));
+    cr_expect(r->optima == 2 && r->x[0] < -1 && r->optimum[0].hits == 1 && r->optimum[1].hits == 2,
+              "%d optima, best at %g", r->optima, r->x[0]);
+    cr_expect(r->failed >= 1 && r->evaluations <= r->budget);
+    ves_search_result_destroy(r);
+    o.evaluations = 3; /* the start, one of the others, a proof */
+    cr_assert(eq(int, ves_search_run(&p, &o, NULL, &r), VES_OK));
+    cr_expect(r->evaluations <= 3 && r->budget == 3 && r->x[0] < 0, "%ld, x %g", r->evaluations, r->x[0]);
+    ves_search_result_destroy(r);
+    p.other = wrong, p.others = 1;
+    cr_expect(eq(int, ves_search_run(&p, &o, NULL, &r), VES_RANGE));
+    p.other = NULL;
+    cr_expect(eq(int, ves_search_run(&p, &o, NULL, &r), VES_RANGE));
+    p.others = -1;
+    cr_expect(eq(int, ves_search_run(&p, &o, NULL, &r), VES_RANGE));
+}

@@ -2,6 +2,7 @@
 #include <criterion/criterion.h>
 #include <criterion/new/assert.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "vesica/run.h"
@@ -103,4 +104,79 @@ Test(settle, the_budget_is_for_both_searches)
         finish(&t);
     }
     cr_expect(again > 2, "chosen again %d times", again);
+}
+
+/* A budget that is the sum of those of the stages, the start and 16 proofs. */
+Test(settle, budgets_of_stages_are_for_both_searches)
+{
+    int again = 0;
+    for (int anneal = 0; anneal < 2; anneal++)
+        for (int polish = 20; polish <= 180; polish += 40) {
+            char text[1000];
+            snprintf(text, sizeof text, TORUS "search: [%s{polish: {algorithm: cobyla, evaluations: %d}}]\n",
+                     anneal ? "{anneal: {evaluations: 150}}, " : "", polish);
+            trial t = run_with(text, &(ves_run_options){.jobs = 1});
+            long budget = 150 * anneal + polish + 1 + 16;
+            cr_expect(t.run->evaluations <= budget, "%ld of %ld", t.run->evaluations, budget);
+            again += noted(t.run, "chosen at the best");
+            finish(&t);
+        }
+    cr_expect(again > 2, "chosen again %d times", again);
+}
+
+/* Tori no thicker than a wide tolerance allows, and two wells in y: at R = 1.3 + 0.01 y the Willmore energy is
+ * pi^2 R^2 / sqrt(R^2 - 1), and y^2 is near 1/4. */
+#define WELLS                                                                                                \
+    "vesica: 1\nvariables: {R: [1.1, 3, 5], y: [-1, 0.1, 1]}\npatches:\n  t:\n    surface: {formula: [\"(R " \
+    "+ cos(u))*cos(v)\", \"(R + cos(u))*sin(v)\", \"sin(u)\"]}\n    domain: {u: [0, 2*pi], v: [0, "          \
+    "2*pi]}\nshape: {closed: true}\nmeasures: {hh: {integral: \"H^2\"}}\n"                                   \
+    "minimize: hh + 20*(y^2-0.25)^2 + 0.01*y\n"                                                              \
+    "constraints: [{require: R <= 1.3 + y*0.01, within: 0.01}]\n"
+
+static double well(double y)
+{
+    double r = 1.3 + 0.01 * y, d = y * y - 0.25;
+    return PI * PI * r * r / sqrt(r * r - 1) + 20 * d * d + 0.01 * y;
+}
+
+/* The least near y, by golden section. */
+static double well_least(double low, double high)
+{
+    for (int k = 0; k < 200; k++) {
+        double a = low + 0.381966011250105 * (high - low), b = low + 0.618033988749895 * (high - low);
+        if (well(a) < well(b))
+            high = b;
+        else
+            low = a;
+    }
+    return well(low);
+}
+
+Test(settle, optima_are_polished_and_measured_on_the_finer_grid)
+{
+    trial t = run_with(WELLS, &(ves_run_options){.jobs = 2});
+    const ves_run *run = t.run;
+    cr_assert(noted(run, "chosen at the best") && run->feasible);
+    cr_assert(eq(int, run->optima, 2));
+    const double want[] = {well_least(0.3, 0.7), well_least(-0.7, -0.3)};
+    const int least = want[0] < want[1] ? 0 : 1;
+    const ves_plan_options grid = {{run->quadrature[0], run->quadrature[1]}};
+    ves_plan *plan;
+    cr_assert(ves_plan_create(t.problem, &grid, &plan, NULL) == VES_OK);
+    int hits = 0;
+    for (int k = 0; k < 2; k++) {
+        const ves_optimum *o = &run->optimum[k];
+        ves_design design;
+        cr_assert(ves_plan_measure(plan, o->x, 0, &design) == VES_OK);
+        cr_expect(design.objective == o->value && design.violation == o->violation && design.feasible);
+        /* 1e-6 of the violation is rounding, a ten-thousandth of `within`; the multiplier is 12, the grid 1e-9 */
+        cr_expect(fabs(o->value - want[k == 0 ? least : 1 - least]) < 2e-5, "%.12g", o->value);
+        cr_expect(o->violation <= 1e-6, "%g", o->violation);
+        hits += o->hits;
+    }
+    cr_expect(run->optimum[0].value == run->best.objective && run->optimum[0].value <= run->optimum[1].value);
+    cr_expect(run->optimum[0].x[1] * run->optimum[1].x[1] < -0.2, "one shape twice");
+    cr_expect(eq(int, hits, 16)); /* as many as the chains of auto */
+    ves_plan_destroy(plan);
+    finish(&t);
 }

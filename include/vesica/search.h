@@ -28,7 +28,9 @@ typedef struct ves_search_problem {
     int m;               /* constraints */
     const double *lower; /* [n] finite, lower < upper */
     const double *upper;
-    const double *start;  /* [n] inside the box */
+    const double *start; /* [n] inside the box */
+    int others; /* further starts: the first stage begins at all that can be measured, the best first */
+    const double *const *other; /* [others][n] inside the box */
     const bool *equality; /* [m] true: constraint == 0; false: constraint <= 0. NULL: all inequalities */
     double tolerance;     /* feasible: violation <= tolerance; 0: 1e-6 */
     bool gradients;       /* evaluate answers VES_WANT_GRADIENT exactly */
@@ -163,6 +165,7 @@ typedef struct ves_search_result {
     double value, violation;
     const double *constraint; /* [m] at the best */
     long evaluations;         /* proofs too */
+    long budget;              /* what they might have been */
     long gradients;
     ves_ending ending;
     const char *stop; /* a sentence: why the last stage that began ended */

@@ -1,4 +1,6 @@
-/* Verdict: what one candidate is worth. One definition and one order for every search. */
+/* Verdict: what one candidate is worth. One definition for every search, and one order of what it tells: the best
+ * so far, the best, the list of optima. (On its way a search also weighs violations within the tolerance, so
+ * that of two ends in one place it keeps the one that does not use the tolerance up.) */
 #ifndef VESICA_VERDICT_H
 #define VESICA_VERDICT_H
 

@@ -82,24 +82,43 @@ static ves_status look(ves_session *session, ves_asker *asker, ves_point *start)
     return VES_OK;
 }
 
+static void place(const ves_search_problem *problem, const double *x, ves_point *point)
+{
+    for (int i = 0; i < problem->n; i++)
+        point->u[i] = (x[i] - problem->lower[i]) / (problem->upper[i] - problem->lower[i]);
+    memcpy(point->x, x, (size_t)problem->n * sizeof *x);
+}
+
+static ves_status others(ves_session *session, ves_asker *asker)
+{
+    const ves_search_problem *problem = session->problem;
+    for (int k = 0; k < problem->others && ves_session_left(session) > asker->evaluations; k++) {
+        ves_point *point = &session->end[session->ends].point;
+        place(problem, problem->other[k], point);
+        VES_TRY(judge(asker, point, true));
+        session->ends += point->verdict.status == VES_OK;
+    }
+    ves_session_sort(session, session->end, session->ends);
+    return VES_OK;
+}
+
 ves_status ves_search_begin(ves_session *session)
 {
     const ves_search_problem *problem = session->problem;
     ves_point *start = &session->start;
-    for (int i = 0; i < session->n; i++)
-        start->u[i] = (problem->start[i] - problem->lower[i]) / (problem->upper[i] - problem->lower[i]);
-    memcpy(start->x, problem->start, (size_t)session->n * sizeof(double));
+    session->end = ves_session_ends(session, 1 + problem->others);
+    if (!session->end) return VES_MEMORY;
+    place(problem, problem->start, start);
     ves_asker asker;
     ves_asker_init(&asker, session, 0);
     ves_status status = judge(&asker, start, true);
     if (status == VES_OK && start->verdict.status != VES_OK) status = look(session, &asker, start);
-    ves_asker_flush(&asker);
-    ves_asker_destroy(&asker);
-    session->end = ves_session_ends(session, 1);
-    if (!session->end) return VES_MEMORY;
     if (start->verdict.status == VES_OK) {
         ves_point_copy(&session->end[0].point, start, session->n, session->m);
         session->ends = 1;
     }
+    if (status == VES_OK) status = others(session, &asker);
+    ves_asker_flush(&asker);
+    ves_asker_destroy(&asker);
     return status;
 }

@@ -96,17 +96,35 @@ static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_
             c->first[k].saddle = true;
         return VES_OK;
     }
-    ves_proof proof = VES_PROOF_PASSED;
+    ves_proof proof;
     ves_asker_flush(asker); /* the proof is told after what led to it, with any number of workers */
-    if (!ves_session_over(session)) {
-        if (ves_session_costs(session, &end->point) && (c->proofs-- <= 0 || spare(session) <= 0)) {
-            c->skipped++;
-            return VES_OK;
-        }
-        VES_TRY(ves_session_prove(session, &end->point, &proof));
+    if (ves_session_over(session)) {
+        if (end->point.proved) cluster_add(c, session, end, 1);
+        return VES_OK;
     }
-    if (proof != VES_PROOF_REFUSED) cluster_add(c, session, end, 1);
+    if (ves_session_costs(session, &end->point) && (c->proofs-- <= 0 || spare(session) <= 0)) {
+        c->skipped++;
+        return VES_OK;
+    }
+    VES_TRY(ves_session_prove(session, &end->point, &proof));
+    if (proof == VES_PROOF_PASSED) cluster_add(c, session, end, 1);
     return VES_OK;
+}
+
+/* What stands for an optimum was chosen with a price on violations; among optima, which are all feasible, only
+ * the value counts. */
+static void cluster_order(clusters *c, double tolerance)
+{
+    for (int i = 1; i < c->count; i++) {
+        ves_end end = c->first[i];
+        int hits = c->hits[i], j = i;
+        for (; j && ves_verdict_better(&end.point.verdict, &c->first[j - 1].point.verdict, tolerance); j--) {
+            c->first[j] = c->first[j - 1];
+            c->hits[j] = c->hits[j - 1];
+        }
+        c->first[j] = end;
+        c->hits[j] = hits;
+    }
 }
 
 static ves_status cluster(clusters *c, ves_session *session, const ves_point *best)
@@ -126,6 +144,7 @@ static ves_status cluster(clusters *c, ves_session *session, const ves_point *be
     ves_asker_flush(&asker);
     ves_asker_destroy(&asker);
     if (!c->hits[0]) c->hits[0] = 1;
+    cluster_order(c, session->tolerance);
     if (c->skipped && session->best.verdict.status == VES_OK)
         ves_session_note(session, "the budget left no proofs for %d more end%s: %s not listed", c->skipped,
                          c->skipped == 1 ? "" : "s", c->skipped == 1 ? "it is" : "they are");
@@ -290,6 +309,7 @@ static bool fill_logs(ves_search_result *r, ves_session *session)
     r->ending = session->ending;
     r->stop = session->stop;
     r->evaluations = session->evaluations;
+    r->budget = session->budget;
     r->gradients = session->gradients;
     r->failed = session->failed;
     r->refused = session->refused;
@@ -304,7 +324,10 @@ static ves_status fill(box *b, ves_session *session)
     clusters c = {0};
     VES_TRY(choose(session, &best, &proved, &c.proofs));
     bool feasible = proved && best->verdict.violation <= session->tolerance;
-    if (feasible) VES_TRY(cluster(&c, session, best));
+    if (feasible) {
+        VES_TRY(cluster(&c, session, best));
+        best = &c.first[0].point;
+    }
     if (session->fault) return session->fault;
     r->n = session->n;
     r->m = session->m;

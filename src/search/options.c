@@ -19,16 +19,25 @@ ves_search_options ves_search_options_default(void)
     return (ves_search_options){.seed = 1};
 }
 
+static ves_status check_start(const ves_search_problem *problem, const double *start)
+{
+    for (int i = 0; i < problem->n; i++)
+        if (!(start[i] >= problem->lower[i] && start[i] <= problem->upper[i])) return VES_RANGE;
+    return VES_OK;
+}
+
 static ves_status check_box(const ves_search_problem *problem)
 {
     if (problem->n < 1 || problem->m < 0 || problem->workers < 0 || !problem->evaluate) return VES_RANGE;
     if (!problem->lower || !problem->upper || !problem->start || problem->tolerance < 0) return VES_RANGE;
+    if (problem->others < 0 || (problem->others && !problem->other)) return VES_RANGE;
     for (int i = 0; i < problem->n; i++) {
-        double lower = problem->lower[i], upper = problem->upper[i], start = problem->start[i];
+        double lower = problem->lower[i], upper = problem->upper[i];
         if (!isfinite(lower) || !isfinite(upper) || !isfinite(upper - lower) || !(lower < upper))
             return VES_RANGE;
-        if (!(start >= lower && start <= upper)) return VES_RANGE;
     }
+    VES_TRY(check_start(problem, problem->start));
+    for (int k = 0; k < problem->others; k++) VES_TRY(check_start(problem, problem->other[k]));
     return VES_OK;
 }
 
@@ -129,7 +138,7 @@ void ves_search_complete(ves_session *session, const ves_search_options *options
         session->stage[1] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = ves_polish_default()};
     }
     long sum = 0;
-    int ends = 1;
+    int ends = 1 + problem->others;
     for (int k = 0; k < session->stages; k++) {
         ves_stage *stage = &session->stage[k];
         session->grows[k] = options->evaluations && !asked(stage);

@@ -31,6 +31,7 @@ typedef struct study {
     int stage;
     int stages_before; /* of searches that are over, and their evaluations */
     long evaluations_before;
+    long left;                 /* of the budget */
     long failed[STATUS_KINDS]; /* candidates that could not be measured, by status */
     ves_status files;          /* the first file that could not be written */
 } study;
@@ -354,14 +355,15 @@ static ves_status result_take(study *s, const ves_search_result *r)
     return VES_OK;
 }
 
-/* start: NULL for the file's own. */
-static ves_status search_with(study *s, const ves_search_options *options, const double *start)
+/* from: where to begin, or NULL for the start of the file. */
+static ves_status search_with(study *s, const ves_search_options *options, const double *const *from,
+                              int count)
 {
     ves_run *run = s->run;
     ves_search_problem problem = ves_plan_search(s->plan, run->jobs);
     ves_search_result *result = NULL;
     ves_search_hooks hooks = {hear_progress, hear_record, hear_stopped, s};
-    if (start) problem.start = start;
+    if (from) problem.start = from[0], problem.other = from + 1, problem.others = count - 1;
     s->stages_before = run->times.stages;
     s->evaluations_before = run->evaluations;
     s->stage = -1;
@@ -370,17 +372,34 @@ static ves_status search_with(study *s, const ves_search_options *options, const
     stage_enter(s, s->stage);
     run->times.search += ves_study_clock() - begun;
     if (!result) return complain(s->diag, status);
+    s->left = result->budget - result->evaluations;
     status = result_take(s, result);
     ves_search_result_destroy(result);
     return status;
 }
 
-/* The best once more, polished on the finer grid; what is reported is measured there. */
-static ves_status search_finer(study *s, const ves_search_options *again, const int grid[2], double change)
+/* The optima, the best first, polished once more on the finer grid; what is reported is measured there. */
+static ves_status polish_again(study *s, const ves_search_options *again)
 {
     ves_run *run = s->run;
     const ves_optimum *old = run->optimum;
     const int count = run->optima;
+    const double **from = ves_arena_take(s->arena, (size_t)count + 1, sizeof *from);
+    if (!from) return complain(s->diag, VES_MEMORY);
+    from[0] = run->best.x;
+    for (int k = 1; k < count; k++) from[k] = old[k].x;
+    VES_TRY(search_with(s, again, from, count > 1 ? count : 1));
+    if (ves_settle_hits(old, count, s->arena, run) != VES_OK) return complain(s->diag, VES_MEMORY);
+    if (run->optima >= count) return VES_OK;
+    char text[SENTENCE];
+    snprintf(text, sizeof text, "of the %d optima on the coarser grid %d were found again", count,
+             run->optima);
+    return keep_note(s, text);
+}
+
+static ves_status search_finer(study *s, const ves_search_options *again, const int grid[2], double change)
+{
+    ves_run *run = s->run;
     const ves_plan_options finer = {{grid[0], grid[1]}};
     ves_plan **coarse = s->plan, **plan = ves_arena_take(s->arena, (size_t)run->jobs, sizeof *plan);
     if (!plan) return complain(s->diag, VES_MEMORY);
@@ -391,9 +410,7 @@ static ves_status search_finer(study *s, const ves_search_options *again, const 
     run->quadrature[0] = grid[0], run->quadrature[1] = grid[1];
     run->change = change;
     VES_TRY(measure(s, NULL, 0, &run->start));
-    VES_TRY(search_with(s, again, run->best.x));
-    status = ves_settle_optima(s->plan[0], old, count, s->arena, run);
-    return status == VES_OK ? VES_OK : complain(s->diag, status);
+    return polish_again(s, again);
 }
 
 /* When the grid does not settle the best: another one, or the advice to give one. */
@@ -411,7 +428,7 @@ static ves_status settle_best(study *s)
     if (status != VES_OK) return complain(s->diag, status);
     if (grid[0] == q[0] && grid[1] == q[1]) return VES_OK;
     bool chosen = s->problem->quadrature[0] == 0 && s->problem->quadrature[1] == 0;
-    if (chosen && run->ending != VES_ENDED_STOPPED && ves_settle_search(&s->search, run, &again)) {
+    if (chosen && run->ending != VES_ENDED_STOPPED && ves_settle_search(&s->search, run, s->left, &again)) {
         snprintf(text, sizeof text,
                  "%d x %d nodes a patch, chosen at the start design, left the best unsettled by %.1e: "
                  "polished once "
@@ -429,7 +446,7 @@ static ves_status settle_best(study *s)
 static ves_status search(study *s)
 {
     stage_names(s);
-    VES_TRY(search_with(s, &s->search, NULL));
+    VES_TRY(search_with(s, &s->search, NULL, 0));
     return s->run->any ? settle_best(s) : VES_OK;
 }
 

@@ -12,11 +12,11 @@ ves_status ves_settle_grid(const ves_run *run, int grid[2], double *change);
 
 /* The last polish of a search, alone, with what is left of its budget. false: it has none, or there is not
  * enough left for one. */
-bool ves_settle_search(const ves_search_options *search, const ves_run *run, ves_search_options *again);
+bool ves_settle_search(const ves_search_options *search, const ves_run *run, long left,
+                       ves_search_options *again);
 
-/* Puts optima of a coarser grid, but for the first, behind those of the run, which took the first's place: with
- * their values on the plan's grid, best first. What cannot be measured there is left out. */
-ves_status ves_settle_optima(ves_plan *plan, const ves_optimum *old, int count, ves_arena *arena,
-                             ves_run *run);
+/* The optima of a run that were polished once more were found as often as the old ones, of the coarser grid, from
+ * which they come. */
+ves_status ves_settle_hits(const ves_optimum *old, int count, ves_arena *arena, ves_run *run);
 
 #endif
