@@ -7,27 +7,31 @@
  * max_i |dc/du_i|): a constraint may be told in any units, if only its tolerance is told in them too. What
  * NLopt returns is not looked at but for the reason: the best is what we have seen ourselves. */
 
-enum { RESTARTS = 5 };
+enum { RESTARTS = 5, CHOICES = 3 };
 
 /* NLopt's own loops: questions in a row for one point (they come by threes, and a model that is stiffened ten
  * times each until it yields passes 300); steps for one dual problem, where NLopt itself allows ten times
  * that. */
 enum { HANG = 2000, DUAL_STEPS = 10000 };
 
-static const double difference = 3e-8; /* step in u: about sqrt(rounding) */
+static const double difference = 3e-8;    /* step in u: about sqrt(rounding) */
+static const double proportional = 1e-12; /* exact slopes that differ by so little are those of one thing */
 static const double squeezed =
     1e-6; /* in u: a line search that ends so near to a failed candidate ran into it */
 
-/* Is constraint k the negative of constraint j, with all its slopes? */
-static bool opposite(const ves_verdict *v, int n, int j, int k)
+/* Is constraint k the negative of constraint j, with all its slopes, each over its size? */
+static bool opposite(const ves_descent *d, int j, int k)
 {
-    const double *a = v->jacobian + (size_t)j * (size_t)n, *b = v->jacobian + (size_t)k * (size_t)n;
-    bool sloped = false;
+    const int n = d->session->n;
+    const double *a = d->last.jacobian + j * n, *b = d->last.jacobian + k * n;
+    double size = d->size[j], other = d->size[k], most = 0, apart = 0;
     for (int i = 0; i < n; i++) {
-        if (a[i] != -b[i]) return false;
-        sloped = sloped || a[i] != 0;
+        most = fmax(most, fabs(a[i] / size));
+        apart = fmax(apart, fabs(a[i] / size + b[i] / other));
     }
-    return sloped && v->constraint[j] == -v->constraint[k];
+    double rounding = d->session->tight / fmin(size, other);
+    return apart < proportional * most &&
+           fabs(d->last.constraint[j] / size + d->last.constraint[k] / other) <= rounding;
 }
 
 /* A dual problem has no bound where the constraints leave no room, and two halves of an equation leave none.
@@ -36,24 +40,39 @@ static void join(ves_descent *d)
 {
     for (int j = 0; j < d->session->m; j++)
         for (int k = j + 1; d->hold[j] == VES_HOLD_NLOPT && k < d->session->m; k++)
-            if (d->hold[k] == VES_HOLD_NLOPT && opposite(&d->last, d->session->n, j, k)) {
+            if (d->hold[k] == VES_HOLD_NLOPT && opposite(d, j, k)) {
                 d->hold[j] = VES_HOLD_EQUAL;
                 d->hold[k] = VES_HOLD_TWIN;
             }
 }
 
-/* Decides who sees to each constraint; joins, when the last candidate tells, opposite ones. */
+/* NLopt takes no more equations than variables. */
+static bool too_many(const ves_descent *d)
+{
+    int count = 0;
+    for (int j = 0; j < d->session->m; j++)
+        count += d->hold[j] == VES_HOLD_NLOPT && ves_session_equality(d->session, j);
+    return count > d->session->n;
+}
+
+/* Decides who sees to each constraint; where the last candidate tells, joins opposite ones and puts off what
+ * depends on others. */
 static void share(ves_descent *d, bool told)
 {
     for (int j = 0; j < d->session->m; j++) {
         bool equal = ves_session_equality(d->session, j);
-        bool held = equal ? d->recipe.equalities : d->recipe.inequalities;
+        bool held = d->halfway || (equal ? d->recipe.equalities : d->recipe.inequalities);
         d->hold[j] = !held ? VES_HOLD_NLOPT : equal ? VES_HOLD_EQUAL : VES_HOLD_BELOW;
     }
     if (d->recipe.dual && told) join(d);
+    if (d->recipe.gradient && told) ves_rows_choose(d);
+    bool many = too_many(d);
+    for (int j = 0; many && j < d->session->m; j++)
+        if (d->hold[j] == VES_HOLD_NLOPT && ves_session_equality(d->session, j)) d->hold[j] = VES_HOLD_EQUAL;
     d->inequalities = d->equalities = 0;
     d->wrapped = false;
     for (int j = 0; j < d->session->m; j++) {
+        if (d->hold[j] == VES_HOLD_LATER) continue;
         if (d->hold[j] != VES_HOLD_NLOPT)
             d->wrapped = true;
         else if (ves_session_equality(d->session, j))
@@ -91,6 +110,8 @@ bool ves_descent_create(ves_descent *d, ves_session *session, int member, const 
     for (int k = 0; k < 6; k++)
         if (!(*columns[k] = ves_arena_take(arena, m, sizeof(double)))) return false;
     d->last.jacobian = ves_arena_take(arena, m * n, sizeof(double));
+    d->row = ves_arena_take(arena, m * (n + 1), sizeof(double));
+    if (!d->row || !ves_point_create(arena, session->n, session->m, &d->aside)) return false;
     for (int i = 0; i < session->n; i++)
         d->range[i] = session->problem->upper[i] - session->problem->lower[i];
     return d->last.jacobian && ves_point_create(arena, session->n, session->m, &d->best);
@@ -322,21 +343,21 @@ static void equalities(unsigned count, double *result, unsigned n, const double 
 }
 
 /* Tolerances are absolute in scaled quantities, which makes them relative to the range and to f itself. */
-static bool tolerances(const ves_descent *d, nlopt_opt opt, double factor)
+static nlopt_result tolerances(const ves_descent *d, nlopt_opt opt, double factor)
 {
     double size = fmax(fabs(d->offset), 1e-6 * d->scale) / d->scale;
-    return nlopt_set_ftol_abs(opt, factor * d->options->f_tolerance * size) > 0 &&
-           nlopt_set_xtol_abs1(opt, factor * d->options->x_tolerance) > 0;
+    nlopt_result code = nlopt_set_ftol_abs(opt, factor * d->options->f_tolerance * size);
+    return code > 0 ? nlopt_set_xtol_abs1(opt, factor * d->options->x_tolerance) : code;
 }
 
 /* The unit box, or a part of it around the route when a run must not go far. */
-static bool bounds(ves_descent *d)
+static nlopt_result bounds(ves_descent *d)
 {
     double *wall = d->shifted; /* spare here, and NLopt copies */
     for (int i = 0; i < d->session->n; i++) wall[i] = fmax(0, d->route[i] - d->reach);
-    bool ok = nlopt_set_lower_bounds(d->opt, wall) > 0;
+    nlopt_result code = nlopt_set_lower_bounds(d->opt, wall);
     for (int i = 0; i < d->session->n; i++) wall[i] = fmin(1, d->route[i] + d->reach);
-    return ok && nlopt_set_upper_bounds(d->opt, wall) > 0;
+    return code > 0 ? nlopt_set_upper_bounds(d->opt, wall) : code;
 }
 
 /* What a violation may be and still be rounding, as NLopt sees it. */
@@ -347,21 +368,22 @@ static double *limits(ves_descent *d, const int *index, int count)
     return limit;
 }
 
-static bool set_up(ves_descent *d, double step, double factor)
+static nlopt_result set_up(ves_descent *d, double step, double factor)
 {
     d->opt = nlopt_create(d->recipe.id, (unsigned)d->session->n);
-    if (!d->opt) return false;
-    bool ok = nlopt_set_min_objective(d->opt, objective, d) > 0 && bounds(d);
-    ok = ok && tolerances(d, d->opt, factor);
-    if (!d->recipe.gradient) ok = ok && nlopt_set_initial_step1(d->opt, fmin(step, 0.4 * d->reach)) > 0;
-    if (d->recipe.dual) ok = ok && nlopt_set_param(d->opt, "dual_maxeval", DUAL_STEPS) > 0;
-    if (d->inequalities)
-        ok = ok && nlopt_add_inequality_mconstraint(d->opt, (unsigned)d->inequalities, inequalities, d,
-                                                    limits(d, d->inequality, d->inequalities)) > 0;
-    if (d->equalities)
-        ok = ok && nlopt_add_equality_mconstraint(d->opt, (unsigned)d->equalities, equalities, d,
-                                                  limits(d, d->equality, d->equalities)) > 0;
-    return ok;
+    if (!d->opt) return NLOPT_OUT_OF_MEMORY;
+    nlopt_result code = nlopt_set_min_objective(d->opt, objective, d);
+    if (code > 0) code = bounds(d);
+    if (code > 0) code = tolerances(d, d->opt, factor);
+    if (code > 0 && !d->recipe.gradient) code = nlopt_set_initial_step1(d->opt, fmin(step, 0.4 * d->reach));
+    if (code > 0 && d->recipe.dual) code = nlopt_set_param(d->opt, "dual_maxeval", DUAL_STEPS);
+    if (code > 0 && d->inequalities)
+        code = nlopt_add_inequality_mconstraint(d->opt, (unsigned)d->inequalities, inequalities, d,
+                                                limits(d, d->inequality, d->inequalities));
+    if (code > 0 && d->equalities)
+        code = nlopt_add_equality_mconstraint(d->opt, (unsigned)d->equalities, equalities, d,
+                                              limits(d, d->equality, d->equalities));
+    return code;
 }
 
 /* The largest slope at the candidate just looked at; without slopes, a guess from the spread or the size of
@@ -400,7 +422,9 @@ static ves_status rescale(ves_descent *d, const double *u, bool first)
 {
     bool slopes = d->recipe.gradient || (first && d->budget - d->used > 10L * d->session->n);
     VES_TRY(ves_descent_look(d, u, slopes));
-    if (first) share(d, slopes && d->last.status == VES_OK);
+    bool told = slopes && d->last.status == VES_OK;
+    resize(d);
+    if (first || told) share(d, told);
     double size = fmax(fabs(d->last.value), d->session->spread);
     double most = steepest(d);
     if (first) {
@@ -408,7 +432,6 @@ static ves_status rescale(ves_descent *d, const double *u, bool first)
         d->scale = d->first_scale;
     } else
         d->scale = fmax(most, 1e-3 * d->first_scale);
-    resize(d);
     if (first) set_price(d);
     d->offset = d->last.value;
     d->lowest = d->highest = 0;
@@ -417,10 +440,9 @@ static ves_status rescale(ves_descent *d, const double *u, bool first)
 
 ves_status ves_descent_minimise(ves_descent *d, double step, double factor)
 {
-    d->code = NLOPT_OUT_OF_MEMORY;
-    bool ok = set_up(d, step, factor);
+    d->code = set_up(d, step, factor);
     double value;
-    if (ok) d->code = nlopt_optimize(d->opt, d->route, &value);
+    if (d->code > 0) d->code = nlopt_optimize(d->opt, d->route, &value);
     nlopt_destroy(d->opt);
     d->opt = NULL;
     return d->code == NLOPT_OUT_OF_MEMORY ? VES_MEMORY : VES_OK;
@@ -449,6 +471,8 @@ static void forget(ves_descent *d, const ves_point *start)
     d->halted = d->spent = d->asked = false;
     d->scale = d->shrink = d->reach = 1;
     d->offset = d->lowest = d->highest = d->penalty = 0;
+    d->choices = 0;
+    d->turned = d->halfway = false;
 }
 
 /* A run that ends at a candidate that failed, or squeezed against one, has not converged, whatever NLopt
@@ -477,6 +501,28 @@ static ves_status descend(ves_descent *d, const ves_point *from, bool first, dou
     return d->lost && status == VES_NO_NUMBER ? VES_OK : status;
 }
 
+/* Where a run ended some constraint that was put off may not hold: then the next one begins there and sees to it
+ * first. What is still violated after some of these, or after a run that left nothing out, contradicts the rest:
+ * the augmented Lagrangian meets it halfway. Returns whether a next run is due. */
+static ves_status look_back(ves_descent *d, bool *due)
+{
+    bool off = false;
+    for (int j = 0; j < d->session->m; j++) off = off || d->hold[j] == VES_HOLD_LATER;
+    d->turned = false;
+    *due = false;
+    if (off && !d->halted) {
+        VES_TRY(ves_descent_look(d, d->route, false));
+        *due = d->last.status == VES_OK && ves_rows_owing(d);
+        d->turned = *due && d->choices++ < CHOICES;
+        if (d->turned) ves_descent_keep(d, &d->aside);
+    }
+    bool contrary = d->best.verdict.violation > d->session->tolerance && d->recipe.gradient &&
+                    d->inequalities + d->equalities > 0;
+    if (d->turned || d->halted || !(*due || contrary)) return VES_OK;
+    *due = d->halfway = true;
+    return VES_OK;
+}
+
 ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *end)
 {
     int n = d->session->n, m = d->session->m;
@@ -484,15 +530,18 @@ ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *en
     ves_point_copy(end, start, n, m);
     ves_status status = VES_OK;
     double step = 0.1;
-    bool due = true; /* what stopped at the edge of its own reach has not converged */
+    bool due = true;
     for (int k = 0; (k < RESTARTS || due) && status == VES_OK && !d->halted; k++, step *= 0.3) {
         bool limited = d->reach < 1;
-        status = descend(d, end, k == 0, step);
+        status = descend(d, d->turned ? &d->aside : end, k == 0, step);
         ves_verdict before = end->verdict;
         ves_point_copy(end, &d->best, n, m);
         bool astray = ended_astray(d, step);
-        due = limited && !astray;
-        if (!astray && k && !progressed(d, &before, &end->verdict)) break;
+        due = d->turned = false;
+        if (astray || status != VES_OK) continue;
+        status = look_back(d, &due);
+        if (!due && k && !progressed(d, &before, &end->verdict)) break;
+        due = due || limited; /* what stopped at the edge of its own reach has not converged */
     }
     return d->asker.fault ? d->asker.fault : status;
 }

@@ -7,8 +7,15 @@
 #include "search/session.h"
 
 /* Who sees to a constraint: NLopt, the augmented Lagrangian as an inequality or an equation, or, where it is
- * the other half of an equation written as two inequalities, nobody. */
-typedef enum ves_hold { VES_HOLD_NLOPT, VES_HOLD_BELOW, VES_HOLD_EQUAL, VES_HOLD_TWIN } ves_hold;
+ * the other half of an equation written as two inequalities, nobody; a constraint that follows
+ * from others is looked at later. */
+typedef enum ves_hold {
+    VES_HOLD_NLOPT,
+    VES_HOLD_BELOW,
+    VES_HOLD_EQUAL,
+    VES_HOLD_TWIN,
+    VES_HOLD_LATER
+} ves_hold;
 
 typedef struct ves_descent {
     ves_session *session;
@@ -19,6 +26,11 @@ typedef struct ves_descent {
     int *inequality, *equality; /* indices of the constraints that NLopt sees */
     ves_hold *hold;             /* [m] */
     bool wrapped;               /* some constraint is held by the Lagrangian */
+    double *row;                /* [m][n + 1] for the choice among equations */
+    int choices;                /* how often what was put off was violated in the end */
+    bool turned;                /* the next run begins there */
+    ves_point aside;            /* that is here */
+    bool halfway;               /* the Lagrangian holds all: they contradict each other */
     double *range;              /* [n] upper - lower */
 
     long budget, used, repeats; /* evaluations of this task; questions for the same point in a row */
@@ -81,6 +93,11 @@ void ves_descent_keep(const ves_descent *descent, ves_point *point);
 /* One run of NLopt from descent->route, and to there; tolerances times factor, first step for those without
  * gradients. */
 ves_status ves_descent_minimise(ves_descent *descent, double step, double factor);
+
+/* rows.c: puts off (VES_HOLD_LATER) those of the constraints that NLopt sees which depend, where the descent has
+ * just looked, on equations that it keeps. Is one of them violated where it has just looked? */
+void ves_rows_choose(ves_descent *descent);
+bool ves_rows_owing(const ves_descent *descent);
 
 /* lagrange.c: an augmented Lagrangian for the constraints that the algorithm does not take. */
 ves_status ves_lagrange_run(ves_descent *descent, double step);
