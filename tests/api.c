@@ -213,6 +213,12 @@ Test(api, a_design_has_the_sign_and_the_names_of_the_file)
         cr_expect(design.x[0] == 0.5 && design.slot[1] == 1 && design.similarity == 1);
     }
     cr_expect_eq(ves_plan_measure(plan, x, 2, &design), VES_RANGE);
+    ves_design other = design;
+    double measure[2] = {design.measure[0] * 1.25, design.measure[1]};
+    other.measure = measure;
+    cr_expect(ves_plan_change(plan, &design, &other) == 0.2 && ves_plan_change(plan, &other, &other) == 0);
+    other.status = VES_FOLDED;
+    cr_expect(isnan(ves_plan_change(plan, &design, &other)));
     ves_plan_destroy(plan);
     ves_problem_destroy(problem);
     problem = read_text(SOLVED, NULL);

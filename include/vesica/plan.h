@@ -85,6 +85,12 @@ typedef struct ves_design {
  * VES_RANGE: no such level; design is then untouched. */
 ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_design *design);
 
+/* The largest relative difference between the measures and the objectives of two designs; NAN when one could
+ * not be measured. A number that is 1e-9 of its natural size is the rounding of a zero and differs by nothing:
+ * of a measure L^d, L the size of the shape that the plan began with and d the power of lengths that the
+ * measure has, of the objective what its measures would make of it if they did not cancel. */
+double ves_plan_change(ves_plan *plan, const ves_design *a, const ves_design *b);
+
 /* After a positive answer `status`: a warning "what: ..." that says why, with the place when diag is the one
  * that the problem was read with: which number has left the range of its key (VES_OUTSIDE), which measure or
  * formula has no value (VES_NO_NUMBER), where which patch has no point (VES_NO_POINT); else the sentence of

@@ -96,6 +96,7 @@ struct ves_plan {
     double *value;          /* [measures] */
     double *fine;           /* [measures] on the finer grid, while a candidate is proved */
     double *fine_violation; /* [constraints] the same, in units of their sizes */
+    double *natural;        /* [measures] change.c: what counts as nothing is a share of this; 0: unknown */
     double *size;   /* [constraints] the scale of each violation: its limit, or what it says at the start */
     bool *cheap;    /* [constraints] reads no dear measure */
     bool any_dear;  /* some judged measure is dear */
@@ -197,6 +198,10 @@ ves_status ves_lid_make(ves_figure_patch *f, int end, ves_arena *arena);
  * hollows, and they alone, lie in other parts; corner: 6 for each cell of a patch. */
 ves_status ves_plan_face(ves_plan *plan);
 bool ves_plan_nested(const ves_plan *plan, const ves_figure *figure, int *corner);
+
+/* change.c: the natural size of each measure, at the design that is bound; and how two of its values differ. */
+ves_status ves_plan_sizes(ves_plan *plan);
+double ves_plan_measure_change(const ves_plan *plan, int m, double a, double b);
 
 /* reference.c: finds the design that shows where outside is, and turns the plan by it */
 ves_status ves_plan_refer(ves_plan *plan, ves_diag *diag);

@@ -82,6 +82,7 @@ static ves_status memory_take(ves_plan *plan)
     plan->value = ves_arena_doubles(a, (size_t)p->measures);
     plan->fine = ves_arena_doubles(a, (size_t)p->measures);
     plan->measure_adjoint = ves_arena_doubles(a, (size_t)p->measures);
+    plan->natural = ves_arena_doubles(a, (size_t)p->measures);
     plan->fine_violation = ves_arena_doubles(a, (size_t)p->constraints);
     plan->size = ves_arena_doubles(a, (size_t)p->constraints);
     plan->cheap = ves_arena_take(a, (size_t)p->constraints, sizeof *plan->cheap);
@@ -103,10 +104,11 @@ static ves_status memory_take(ves_plan *plan)
     plan->told = ves_arena_doubles(a, (size_t)p->measures);
     plan->sides = ves_arena_take(a, (size_t)p->constraints, sizeof *plan->sides);
     return plan->block && plan->block_adjoint && plan->value && plan->fine && plan->fine_violation &&
-                   plan->measure_adjoint && plan->size && plan->cheap && plan->formula_room && plan->rows &&
-                   plan->row_similarity && plan->unit_row && plan->field && plan->field_adjoint &&
-                   plan->form && plan->patch && plan->sheet && plan->side && plan->part && plan->sense &&
-                   plan->enclosed && plan->reference && plan->told && plan->sides
+                   plan->measure_adjoint && plan->natural && plan->size && plan->cheap &&
+                   plan->formula_room && plan->rows && plan->row_similarity && plan->unit_row &&
+                   plan->field && plan->field_adjoint && plan->form && plan->patch && plan->sheet &&
+                   plan->side && plan->part && plan->sense && plan->enclosed && plan->reference &&
+                   plan->told && plan->sides
                ? VES_OK
                : VES_MEMORY;
 }
@@ -221,6 +223,7 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
         VES_TRY(ves_plan_level_build(plan, k));
     }
     VES_TRY(ves_plan_refer(plan, diag));
+    VES_TRY(ves_plan_sizes(plan));
     for (int m = 0; m < p->measures; m++) plan->value[m] = 0;
     ves_status status = ves_plan_forward(plan, plan->start, 0, PROGRAM_JUDGE, false);
     if (status < 0) return status;

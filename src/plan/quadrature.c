@@ -24,14 +24,12 @@ static ves_status measures_on(const ves_problem *problem, const double *x, const
     return status;
 }
 
-static double change_between(const ves_problem *problem, const double *a, const double *b)
+static double change_between(const ves_plan *plan, const double *a, const double *b)
 {
     double worst = 0;
-    for (int k = 0; k < problem->measures; k++) {
-        if (problem->measure[k].measure->extreme) continue;
-        double size = fmax(fabs(a[k]), fabs(b[k])), change = size > 1e-9 ? fabs(a[k] - b[k]) / size : 0;
-        worst = fmax(worst, change);
-    }
+    for (int k = 0; k < plan->problem->measures; k++)
+        if (!plan->problem->measure[k].measure->extreme)
+            worst = fmax(worst, ves_plan_measure_change(plan, k, a[k], b[k]));
     return worst;
 }
 
@@ -47,9 +45,10 @@ static int resolving(const ves_plan *plan)
 
 /* Refines one direction until two refinements in a row change nothing: one alone may be fooled by symmetry.
  * left: the last change on the grid chosen. */
-static ves_status refine(const ves_problem *problem, const double *x, int d, int grid[2], double *left,
+static ves_status refine(const ves_plan *plan, const double *x, int d, int grid[2], double *left,
                          double *value)
 {
+    const ves_problem *problem = plan->problem;
     int count = problem->measures, most = d ? V_MOST : U_MOST, trial[2] = {grid[0], grid[1]}, calm = 0;
     double *next = value + count;
     *left = 0;
@@ -58,7 +57,7 @@ static ves_status refine(const ves_problem *problem, const double *x, int d, int
         int finer = rounded(trial[d] + trial[d] / 2);
         trial[d] = finer;
         VES_TRY(measures_on(problem, x, trial, next));
-        double change = change_between(problem, value, next);
+        double change = change_between(plan, value, next);
         if (!calm) *left = change;
         calm = change <= ENOUGH ? calm + 1 : 0;
         if (calm) continue;
@@ -88,7 +87,7 @@ ves_status ves_plan_choose(const ves_problem *problem, const double *at, int qua
     if (status == VES_OK && !there) status = plan->measured;
     if (status == VES_OK && problem->variables)
         memcpy(x, there ? at : plan->reference, sizeof *x * (size_t)problem->variables);
-    for (int d = 0; d < 2 && status == VES_OK; d++) status = refine(problem, x, d, grid, &left[d], value);
+    for (int d = 0; d < 2 && status == VES_OK; d++) status = refine(plan, x, d, grid, &left[d], value);
     ves_plan_destroy(plan);
     ves_arena_destroy(&arena);
     quadrature[0] = grid[0], quadrature[1] = grid[1];

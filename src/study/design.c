@@ -1,9 +1,6 @@
 #include "study/design.h"
 
-#include <math.h>
 #include <string.h>
-
-static const double NOTHING = 1e-9;
 
 /* NULL when out of memory. */
 static void *copy(ves_arena *arena, const void *from, int count, size_t size)
@@ -34,18 +31,4 @@ ves_status ves_design_measure(ves_plan *plan, const ves_problem *problem, const 
     if (!d.slot || !d.measure || !d.side) return VES_MEMORY;
     *design = d;
     return VES_OK;
-}
-
-static double difference(double a, double b)
-{
-    double size = fmax(fabs(a), fabs(b));
-    return size > NOTHING ? fabs(a - b) / size : 0;
-}
-
-double ves_design_change(const ves_problem *problem, const ves_design *a, const ves_design *b)
-{
-    if (a->status != VES_OK || b->status != VES_OK) return NAN;
-    double worst = problem->objective ? difference(a->objective, b->objective) : 0;
-    for (int k = 0; k < problem->measures; k++) worst = fmax(worst, difference(a->measure[k], b->measure[k]));
-    return worst;
 }

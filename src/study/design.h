@@ -11,8 +11,4 @@
 ves_status ves_design_measure(ves_plan *plan, const ves_problem *problem, const double *x, int level,
                               ves_arena *arena, ves_design *design);
 
-/* The largest relative difference of the measures and the objective of two designs; NAN when one cannot be
- * measured. Measures smaller than 1e-9 count as nothing. */
-double ves_design_change(const ves_problem *problem, const ves_design *a, const ves_design *b);
-
 #endif

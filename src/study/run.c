@@ -418,7 +418,7 @@ static ves_status settle_best(study *s)
 {
     ves_run *run = s->run;
     const int *q = run->quadrature;
-    const double off = ves_design_change(s->problem, &run->best, &run->finer);
+    const double off = ves_plan_change(s->plan[0], &run->best, &run->finer);
     if (!(off > UNSETTLED)) return VES_OK;
     int grid[2];
     double change;
@@ -539,7 +539,7 @@ static ves_status work(study *s)
     if (s->files != VES_OK) return s->files; /* told before the search has cost anything */
     if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);
     VES_TRY(run->searched ? search(s) : once(s));
-    run->finer_change = ves_design_change(s->problem, &run->best, &run->finer);
+    run->finer_change = ves_plan_change(s->plan[0], &run->best, &run->finer);
     VES_TRY(expect(s));
     run->times.wall = ves_study_clock() - s->wall;
     run->times.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - s->cpu;
