@@ -90,7 +90,8 @@ typedef struct ves_measure_input {
     /* NULL where there are no looks. Samples the surface exactly, between nodes and on its ends too.
      * Fills look number k of surface number i at the points u[0..2] x v[0..2] (node = 3 j + i; 0 <= u <= 1,
      * 0 <= v <= 2 pi; they may coincide) and returns the index of its sample and of its adjoint; -1: at one
-     * of them the surface has no number, or no tangent plane for what needs one. What a look was filled with
+     * of them the surface has no number, or no tangent plane for what needs one. At an end that is one point
+     * (a pole) normal, H and K are their limits along v; -1 where these do not exist, as at the tip of a cone. What a look was filled with
      * last in eval is what gradient finds. It costs a quarter of what 16 x 32 nodes of a patch cost. input is
      * the very one that eval was called with, no copy. */
     int (*look)(const struct ves_measure_input *input, int i, int k, const double u[3], const double v[3]);

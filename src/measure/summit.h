@@ -1,9 +1,10 @@
 /* The highest point over the surface of a function that is known by its values alone: not of its nodes,
  * but found by looks, which are exact, between them and on the ends u = 0 and u = 1. The value is one that
- * the surface has. At a pole, where a surface has no tangent plane, what needs one is looked at beside it.
+ * the surface has; at a pole a limit of it. Where there is none (the tip of a cone, a formula without a slope
+ * at its end), what needs a tangent plane is looked at beside the end.
  * Derivative: the summit is stationary, or held by an end, so its u and v count as constants (envelope
  * theorem).
- * test  cones, catenoids, ellipsoids in closed form; hills that overtake each other; differences */
+ * test  cones, catenoids, ellipsoids, domes in closed form; hills that overtake each other; differences */
 #ifndef VES_MEASURE_SUMMIT_H
 #define VES_MEASURE_SUMMIT_H
 

@@ -5,11 +5,17 @@
 #include <math.h>
 #include <string.h>
 
-/* At a pole Xv vanishes: forms are taken this far inside and half as far, and followed to their limit.
- * Nearer, what cancels in them would be seen: their rounding is 1e-16 over this distance. */
+/* Where an end has no forms they are taken this far inside, and half as far. Nearer, what cancels in them
+ * would be seen: their rounding is 1e-16 over this distance. */
 static const double INSIDE = 2e-3;
 
-enum { EVERYTHING = (1 << VES_FIELDS) - 1, ALONG = 48, CELLS_MOST = 10000, ALL_MOST = 20000000 };
+enum {
+    EVERYTHING = (1 << VES_FIELDS) - 1,
+    AT_POLE = (1 << VES_POLE_FIELDS) - 1,
+    ALONG = 48,
+    CELLS_MOST = 10000,
+    ALL_MOST = 20000000
+};
 
 static ves_status patch_reserve(ves_figure *figure, ves_figure_patch *f)
 {
@@ -26,6 +32,8 @@ typedef struct visit {
     int first, rows;
     const double *u; /* [rows] */
     double slide;
+    bool pole;         /* one row, and it is a pole: the limits of forms */
+    ves_status status; /* VES_DEGENERATE: somewhere there are no forms */
     void (*take)(const ves_plan *plan, ves_figure_patch *f, const struct visit *rows, const ves_tile *tile);
 } visit;
 
@@ -41,24 +49,28 @@ static ves_status grid_make(ves_figure *figure, const ves_figure_patch *f, const
 }
 
 /* Visits every tile of some rows of a patch. */
-static ves_status rows_sample(ves_plan *plan, ves_figure *figure, int k, const visit *rows)
+static ves_status rows_sample(ves_plan *plan, ves_figure *figure, int k, visit *rows)
 {
     ves_figure_patch *f = &figure->patch[k];
+    unsigned fields = rows->pole ? AT_POLE : EVERYTHING;
     ves_grid *grid = ves_arena_take(&figure->arena, 1, sizeof *grid);
     ves_chart *chart;
     if (!grid) return VES_MEMORY;
     VES_TRY(grid_make(figure, f, rows, grid));
-    VES_TRY(ves_chart_create(plan->patch[k], grid, EVERYTHING, &figure->arena, &chart));
+    VES_TRY(ves_chart_create(plan->patch[k], grid, fields, &figure->arena, &chart));
     ves_chart_prepare(chart, &plan->bound, false);
     int tiles = ves_tile_count(grid);
     for (int t = 0; t < tiles; t++) {
         ves_tile tile;
-        ves_tile_at(grid, t, EVERYTHING, &tile);
+        int pole[VES_LANES];
+        ves_tile_at(grid, t, fields, &tile);
         ves_chart_sample(chart, &tile, plan->field);
         ves_tile_scale(&tile, plan->similarity, plan->field);
         ves_form_rows form;
         ves_form_rows_init(plan->form, &form);
-        ves_forms_eval(&tile, plan->field, f->side, true, &form);
+        if (rows->pole && ves_pole_lanes(grid, &tile, f->pole, pole))
+            ves_pole_unfold(&tile, pole, plan->field);
+        if (ves_forms_eval(&tile, plan->field, f->side, true, &form) != VES_OK) rows->status = VES_DEGENERATE;
         rows->take(plan, f, rows, &tile);
     }
     return VES_OK;
@@ -119,35 +131,52 @@ static void row_fill(const ves_figure_patch *f, int row, const double form[FORMS
     }
 }
 
-static ves_status row_sample(ves_plan *plan, ves_figure *figure, int k, int end, double inside)
+/* The forms of an end, taken `inside` of it; 0: at the very end, a pole. *good: there are forms. */
+static ves_status row_sample(ves_plan *plan, ves_figure *figure, int k, int end, double inside, bool *good)
 {
     const ves_figure_patch *f = &figure->patch[k];
     double *u = ves_arena_take(&figure->arena, 1, sizeof *u);
     if (!u) return VES_MEMORY;
     *u = end ? 1 - inside : inside;
-    visit row = {.first = end ? f->nu : 0, .rows = 1, .u = u, .take = take_forms};
-    return rows_sample(plan, figure, k, &row);
+    visit row = {.first = end ? f->nu : 0, .rows = 1, .u = u, .pole = inside == 0, .take = take_forms};
+    VES_TRY(rows_sample(plan, figure, k, &row));
+    *good = row.status == VES_OK;
+    return VES_OK;
 }
 
-/* A pole has one normal and one H and K, the limit of their means over v. Where the surface is smooth the
- * means are even in u, and (4 f(h/2) - f(h)) / 3 is the limit but for h^4; where it comes to a point they
- * grow without bound, and what stands beside the pole stands for it. */
-static ves_status pole_limit(ves_plan *plan, ves_figure *figure, int k, int end)
+/* Where a pole has no limit: the surface comes to a point, forms grow without bound, and what stands beside
+ * the pole stands for it; or its formula has no slope there, the means of the forms over v are even in u, and
+ * (4 f(h/2) - f(h)) / 3 is their limit but for h^4. */
+static ves_status blunt_limit(ves_plan *plan, ves_figure *figure, int k, int end, double limit[FORMS])
 {
     const ves_figure_patch *f = &figure->patch[k];
-    double far[FORMS], near[FORMS], limit[FORMS], beside[FORMS];
+    double far[FORMS], near[FORMS], beside[FORMS];
     int row = end ? f->nu : 0;
-    VES_TRY(row_sample(plan, figure, k, end, INSIDE));
+    bool good;
+    VES_TRY(row_sample(plan, figure, k, end, INSIDE, &good));
     row_mean(f, row, far);
-    VES_TRY(row_sample(plan, figure, k, end, INSIDE / 2));
+    VES_TRY(row_sample(plan, figure, k, end, INSIDE / 2, &good));
     row_mean(f, row, near);
     row_mean(f, end ? f->nu - 1 : 1, beside);
     bool pointed = false;
     for (int q = 3; q < FORMS; q++) pointed = pointed || !(fabs(near[q]) <= 1.5 * fabs(far[q]));
-    for (int q = 0; q < FORMS; q++) limit[q] = pointed ? beside[q] : (4 * near[q] - far[q]) / 3;
-    const double *n = pointed ? near : limit;
-    double length = hypot(hypot(n[0], n[1]), n[2]);
-    for (int c = 0; c < 3; c++) limit[c] = length > 0 ? n[c] / length : 0;
+    for (int q = 0; q < FORMS; q++)
+        limit[q] = !pointed ? (4 * near[q] - far[q]) / 3 : q < 3 ? near[q] : beside[q];
+    return VES_OK;
+}
+
+/* A pole has one normal and one H and K, the mean over v of their limits (surface/pole.h). */
+static ves_status pole_limit(ves_plan *plan, ves_figure *figure, int k, int end)
+{
+    const ves_figure_patch *f = &figure->patch[k];
+    int row = end ? f->nu : 0;
+    double limit[FORMS];
+    bool smooth;
+    VES_TRY(row_sample(plan, figure, k, end, 0, &smooth));
+    row_mean(f, row, limit);
+    if (!smooth) VES_TRY(blunt_limit(plan, figure, k, end, limit));
+    double length = hypot(hypot(limit[0], limit[1]), limit[2]);
+    for (int c = 0; c < 3; c++) limit[c] = length > 0 ? limit[c] / length : 0;
     row_fill(f, row, limit);
     return VES_OK;
 }
@@ -163,7 +192,8 @@ static ves_status blunt_ends(ves_plan *plan, ves_figure *figure, int k)
             int at = (end ? f->nu * f->columns : 0) + j;
             sum += f->normal[0][at] + f->H[at] + f->K[at];
         }
-        if (!isfinite(sum)) VES_TRY(row_sample(plan, figure, k, end, INSIDE / 2));
+        bool good;
+        if (!isfinite(sum)) VES_TRY(row_sample(plan, figure, k, end, INSIDE / 2, &good));
     }
     for (int s = 0; s < f->rows * f->columns; s++)
         if (!isfinite(f->normal[0][s] + f->normal[1][s] + f->normal[2][s]))

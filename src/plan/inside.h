@@ -6,6 +6,7 @@
 #include "surface/figure.h"
 #include "surface/forms.h"
 #include "surface/patch.h"
+#include "surface/pole.h"
 #include "vesica/plan.h"
 
 enum { LEVELS = 2 };
@@ -34,7 +35,8 @@ typedef struct plan_site {
     double *trig; /* curve: [e][k][nv] */
     double side;  /* orientation of the patch */
     bool varies;
-    bool looked;              /* a look: filled since the other sites were sampled */
+    bool looked;  /* a look: filled since the other sites were sampled */
+    bool pole[2]; /* a look that has forms, on a patch whose end is a point: they are limits there */
     unsigned needs[PROGRAMS]; /* VES_X | ... */
     unsigned wants;           /* all of them */
     unsigned slopes;          /* of the sweep at hand: planes whose adjoint some measure adds to */
@@ -108,7 +110,7 @@ struct ves_plan {
     double *rows;           /* gradients: [1 + constraints + 1][slots] before the equations are followed */
     double *row_similarity; /* [1 + constraints + 1] d/d similarity */
     double *unit_row;       /* [slots] gradient of scale's measure */
-    ves_tile_planes *field, *field_adjoint;
+    ves_tile_planes *field, *field_adjoint, *unfolded;
     ves_form_planes *form;
     double change; /* that the choice of the grid left; NAN: it was given */
 

@@ -93,6 +93,7 @@ static ves_status memory_take(ves_plan *plan)
     plan->unit_row = ves_arena_doubles(a, (size_t)p->slots);
     plan->field = ves_arena_take(a, 1, sizeof *plan->field);
     plan->field_adjoint = ves_arena_take(a, 1, sizeof *plan->field_adjoint);
+    plan->unfolded = ves_arena_take(a, 1, sizeof *plan->unfolded);
     plan->form = ves_arena_take(a, 1, sizeof *plan->form);
     plan->patch = ves_arena_take(a, (size_t)p->patches, sizeof *plan->patch);
     plan->sheet = ves_arena_take(a, (size_t)p->patches, sizeof *plan->sheet);
@@ -106,9 +107,9 @@ static ves_status memory_take(ves_plan *plan)
     return plan->block && plan->block_adjoint && plan->value && plan->fine && plan->fine_violation &&
                    plan->measure_adjoint && plan->natural && plan->size && plan->cheap &&
                    plan->formula_room && plan->rows && plan->row_similarity && plan->unit_row &&
-                   plan->field && plan->field_adjoint && plan->form && plan->patch && plan->sheet &&
-                   plan->side && plan->part && plan->sense && plan->enclosed && plan->reference &&
-                   plan->told && plan->sides
+                   plan->field && plan->field_adjoint && plan->unfolded && plan->form && plan->patch &&
+                   plan->sheet && plan->side && plan->part && plan->sense && plan->enclosed &&
+                   plan->reference && plan->told && plan->sides
                ? VES_OK
                : VES_MEMORY;
 }

@@ -9,7 +9,7 @@ static const unsigned FIELD_NEED[VES_FIELDS] = {VES_X, VES_XU, VES_XV, VES_XUU, 
 
 #define HOT static inline __attribute__((always_inline))
 
-enum { FORM_NEEDS = VES_NORMAL | VES_AREA | VES_CURVATURE };
+enum { FORM_NEEDS = VES_NORMAL | VES_AREA | VES_CURVATURE, AT_POLE = (1 << VES_POLE_FIELDS) - 1 };
 
 /* The fields that must be computed so that `needs` can be answered. */
 static unsigned fields_for(unsigned needs)
@@ -72,6 +72,14 @@ static ves_status tiles_cut(ves_plan *plan, plan_site *s)
     return s->tile && s->kept ? VES_OK : VES_MEMORY;
 }
 
+/* A look may stand on an end that is a point. */
+static unsigned chart_fields(const ves_plan *plan, plan_site *s, ves_site kind)
+{
+    for (int end = 0; end < 2; end++)
+        s->pole[end] = kind == VES_SITE_LOOK && s->wants & FORM_NEEDS && ves_end_is_pole(plan, s->patch, end);
+    return s->pole[0] || s->pole[1] ? AT_POLE : fields_for(s->wants);
+}
+
 /* Completes a site whose kind, grid and needs are known. */
 ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind)
 {
@@ -93,8 +101,8 @@ ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind)
             memcpy(m->v_range, d->v_range, sizeof d->v_range);
         }
         s->varies = ves_patch_varies(plan->patch[s->patch]) || plan->problem->scale;
-        VES_TRY(
-            ves_chart_create(plan->patch[s->patch], &s->grid, fields_for(s->wants), &plan->arena, &s->chart));
+        VES_TRY(ves_chart_create(plan->patch[s->patch], &s->grid, chart_fields(plan, s, kind), &plan->arena,
+                                 &s->chart));
         VES_TRY(tiles_cut(plan, s));
     } else {
         s->varies = ves_curves_varies(plan->curves, s->curve) || plan->problem->scale;
@@ -177,6 +185,24 @@ static void forms_store(const plan_site *s, const ves_tile *tile, unsigned needs
     }
 }
 
+/* Does a tile hold a pole? Then it needs all fields. */
+static bool tile_fields(const plan_site *s, ves_tile *tile, unsigned needs, int pole[VES_LANES])
+{
+    bool any =
+        (s->pole[0] || s->pole[1]) && needs & FORM_NEEDS && ves_pole_lanes(&s->grid, tile, s->pole, pole);
+    tile->fields = any ? AT_POLE : fields_for(needs);
+    return any;
+}
+
+/* The fields that forms are made of. */
+static const ves_tile_planes *unfolded(ves_plan *plan, const ves_tile *tile, const int *pole,
+                                       const ves_tile_planes *field)
+{
+    *plan->unfolded = *field;
+    ves_pole_unfold(tile, pole, plan->unfolded);
+    return plan->unfolded;
+}
+
 /* Forms of a tile into the planes of the grid: straight, where the tile is as wide as a register, else
  * through a buffer. */
 static ves_status forms_sample(ves_plan *plan, plan_site *s, const ves_tile *tile,
@@ -235,12 +261,14 @@ static ves_status site_fill(ves_plan *plan, plan_site *s, unsigned needs, bool g
     for (int k = 0; k < s->tiles; k++) {
         ves_tile *tile = &s->tile[k];
         ves_tile_planes *field = keep ? &s->kept[k] : plan->field;
-        tile->fields = fields_for(needs);
+        int pole[VES_LANES];
+        bool at_pole = tile_fields(s, tile, needs, pole);
         ves_chart_sample(s->chart, tile, field);
         if (plan->similarity != 1) ves_tile_scale(tile, plan->similarity, field);
         fields_store(tile, needs, field, &s->samples);
         if (needs & FORM_NEEDS) {
-            ves_status status = forms_sample(plan, s, tile, field, needs);
+            const ves_tile_planes *of = at_pole ? unfolded(plan, tile, pole, field) : field;
+            ves_status status = forms_sample(plan, s, tile, of, needs);
             if (status != VES_OK) worst = formless(tile, field);
         }
     }
@@ -333,19 +361,25 @@ static void form_adjoint_take(const plan_site *s, const ves_tile *tile, ves_form
 }
 
 /* The adjoint of the fields of one tile: what flows back through the forms, and what measures gave directly. */
-static void adjoint_make(ves_plan *plan, plan_site *s, const ves_tile *tile, const ves_tile_planes *field)
+static void adjoint_make(ves_plan *plan, plan_site *s, ves_tile *tile, const ves_tile_planes *field)
 {
     ves_tile_planes *to = plan->field_adjoint;
     unsigned needs = s->slopes;
+    int pole[VES_LANES];
+    bool at_pole = tile_fields(s, tile, needs, pole);
     if (needs & FORM_NEEDS) {
         form_adjoint_take(s, tile, plan->form);
         ves_form_flow flow = {.normal = needs & VES_NORMAL, .curvature = needs & VES_CURVATURE};
-        ves_forms_gradient(tile, field, s->side, flow, plan->form, to);
+        const ves_tile_planes *of = at_pole ? unfolded(plan, tile, pole, field) : field;
+        ves_forms_gradient(tile, of, s->side, flow, plan->form, to);
+        for (int k = 3 * VES_FIELD_UU; k < 3 * VES_FIELDS && at_pole && !flow.curvature; k++)
+            plane_zero(tile, to->at[k]);
+        if (at_pole) ves_pole_gradient(tile, pole, field, to);
     }
     for (int f = 0; f < VES_FIELDS; f++)
         for (int c = 0; c < 3 && tile->fields & 1u << f; c++) {
             bool made = needs & FORM_NEEDS && f != VES_FIELD_X &&
-                        (ves_field_d[f] + ves_field_e[f] == 1 || needs & VES_CURVATURE);
+                        (ves_field_d[f] + ves_field_e[f] == 1 || needs & VES_CURVATURE || at_pole);
             if (needs & FIELD_NEED[f])
                 tile_take(tile, adjoint_field(&s->adjoint, f)[c], NULL, made, to->at[f * 3 + c]);
             else if (!made)
@@ -360,7 +394,7 @@ static double tile_unscale(const ves_tile *tile, double similarity, const ves_ti
                            ves_tile_planes *adjoint)
 {
     double sum = 0;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && tile->fields & 1u << f; c++) {
             const double *x = field->at[f * 3 + c];
             double *g = adjoint->at[f * 3 + c];
@@ -403,7 +437,6 @@ double ves_site_scatter(ves_plan *plan, plan_site *s)
     bool scaled = plan->problem->scale;
     for (int k = 0; k < s->tiles; k++) {
         ves_tile *tile = &s->tile[k];
-        tile->fields = fields_for(s->slopes);
         adjoint_make(plan, s, tile, &s->kept[k]);
         if (scaled) by_similarity += tile_unscale(tile, plan->similarity, &s->kept[k], plan->field_adjoint);
         ves_chart_scatter(s->chart, tile, plan->field_adjoint);

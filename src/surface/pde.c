@@ -92,7 +92,7 @@ static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena
     if (!c) return VES_MEMORY;
     c->nup = ves_padded(grid->nu);
     c->a_table = NAN;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         if (chart->fields & 1u << f && ves_field_d[f] >= c->orders) c->orders = ves_field_d[f] + 1;
     long table = ves_weights_size(&p->layout, p->modes, c->nup), rest = 3L * p->conditions * c->nup;
     long mode = 9L * stride(p->modes) * c->nup, tail = p->band - p->modes;
@@ -232,7 +232,7 @@ static void pde_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_pl
     const pde_chart *c = chart->state;
     ves_synthesis_eval(&c->synthesis, c->mode, tile, field);
     if (p->band == p->modes) return;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int k = 0; k < 3 && tile->fields & 1u << f; k++) {
             lanes *out = (lanes *)field->at[f * 3 + k];
             for (int j = 0; j < p->conditions; j++) {
@@ -267,7 +267,7 @@ static void pde_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_p
     pde_chart *c = chart->state;
     ves_synthesis_gradient(&c->synthesis, tile, adjoint, c->mode_adjoint);
     if (p->band == p->modes) return;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int k = 0; k < 3 && tile->fields & 1u << f; k++) {
             const lanes *in = (const lanes *)adjoint->at[f * 3 + k];
             for (int j = 0; j < p->conditions; j++) {

@@ -7,7 +7,7 @@ ves_status ves_sheet_create(ves_chart *chart, size_t room, ves_arena *arena, ves
     ves_sheet *s = ves_arena_take(arena, 1, sizeof *s);
     if (!s) return VES_MEMORY;
     size_t count = (size_t)chart->grid->count;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++) {
             s->plane[f][c] = ves_arena_doubles(arena, count);
             s->adjoint[f][c] = ves_arena_doubles(arena, chart->patch->varies ? count : 0);
@@ -35,7 +35,7 @@ void ves_sheet_move(ves_chart *chart)
 void ves_sheet_clear(ves_chart *chart)
 {
     ves_sheet *s = chart->state;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             memset(s->adjoint[f][c], 0, sizeof(double) * (size_t)chart->grid->count);
 }
@@ -49,7 +49,7 @@ static int node(const ves_chart *chart, const ves_tile *tile, int row, int lane)
 void ves_sheet_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field)
 {
     const ves_sheet *s = chart->state;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && tile->fields & 1u << f; c++)
             for (int r = 0; r < tile->rows; r++)
                 for (int i = 0; i < VES_LANES; i++)
@@ -59,7 +59,7 @@ void ves_sheet_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_pla
 void ves_sheet_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_planes *adjoint)
 {
     ves_sheet *s = chart->state;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && tile->fields & 1u << f; c++)
             for (int r = 0; r < tile->rows; r++)
                 for (int i = 0; i < VES_LANES; i++)

@@ -6,8 +6,8 @@
 #include "surface/kind.h"
 
 typedef struct ves_sheet {
-    double *plane[VES_FIELDS][3],
-        *adjoint[VES_FIELDS][3]; /* [count]; NULL where the chart does not have the field */
+    double *plane[VES_POLE_FIELDS][3],
+        *adjoint[VES_POLE_FIELDS][3]; /* [count]; NULL where the chart does not have the field */
     double *room;
     long binding; /* of the planes */
     void *tables;

@@ -24,10 +24,51 @@ static double factor(const drawn *d, int f)
     return product;
 }
 
+/* What a chart that may see a pole needs besides. */
+typedef struct drawn_pole {
+    const ves_formula *formula[VES_POLE_FIELDS - VES_FIELDS][3];
+} drawn_pole;
+
+static const ves_formula *formula_of(const ves_chart *chart, int f, int c)
+{
+    const drawn *d = chart->patch->state;
+    const drawn_pole *pole = ((const ves_sheet *)chart->state)->tables;
+    return f < VES_FIELDS ? d->formula[f][c] : pole->formula[f - VES_FIELDS][c];
+}
+
+static int larger(int room, const ves_formula *formula)
+{
+    int own = ves_formula_room(formula);
+    return own > room ? own : room;
+}
+
+/* Derived once more along v from an earlier field. */
+static ves_status pole_derive(const drawn *d, int c, drawn_pole *pole, int *room, ves_arena *arena)
+{
+    const ves_formula *const parent[] = {d->formula[VES_FIELD_UV][c], d->formula[VES_FIELD_UU][c]};
+    for (int f = 0; f < VES_POLE_FIELDS - VES_FIELDS; f++) {
+        const ves_formula *from = f < 2 ? parent[f] : pole->formula[VES_FIELD_UUV - VES_FIELDS][c];
+        pole->formula[f][c] = ves_formula_derivative(from, 1, arena);
+        if (!pole->formula[f][c]) return VES_MEMORY;
+        *room = larger(*room, pole->formula[f][c]);
+    }
+    return VES_OK;
+}
+
 static ves_status chart_create(ves_patch *patch, ves_chart *chart, ves_arena *arena)
 {
+    const drawn *d = patch->state;
+    drawn_pole *pole = NULL;
+    int room = d->room;
+    if (chart->fields >> VES_FIELDS) {
+        pole = ves_arena_take(arena, 1, sizeof *pole);
+        if (!pole) return VES_MEMORY;
+        for (int c = 0; c < 3; c++) VES_TRY(pole_derive(d, c, pole, &room, arena));
+    }
     ves_sheet *sheet;
-    return ves_sheet_create(chart, (size_t)((drawn *)patch->state)->room, arena, &sheet);
+    VES_TRY(ves_sheet_create(chart, (size_t)room, arena, &sheet));
+    sheet->tables = pole;
+    return VES_OK;
 }
 
 static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
@@ -37,13 +78,13 @@ static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
     const ves_grid *grid = chart->grid;
     (void)gradient;
     if (!ves_sheet_stale(chart)) return;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             for (int j = 0; j < grid->nv; j++)
                 for (int i = 0; i < grid->nu; i++) {
                     double at[2] = {inward(d->u_range, grid->u[i]),
                                     inward(d->v_range, grid->v[j] / VES_TWO_PI)};
-                    double value = ves_formula_eval(d->formula[f][c], bound->number, at, s->room);
+                    double value = ves_formula_eval(formula_of(chart, f, c), bound->number, at, s->room);
                     s->plane[f][c][j * grid->nu + i] = factor(d, f) * value;
                 }
 }
@@ -53,7 +94,7 @@ static void gather(ves_chart *chart, const ves_bound *bound, double *number_adjo
     const drawn *d = chart->patch->state;
     ves_sheet *s = chart->state;
     const ves_grid *grid = chart->grid;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             for (int j = 0; j < grid->nv; j++)
                 for (int i = 0; i < grid->nu; i++) {
@@ -61,8 +102,8 @@ static void gather(ves_chart *chart, const ves_bound *bound, double *number_adjo
                                     inward(d->v_range, grid->v[j] / VES_TWO_PI)};
                     double seed = factor(d, f) * s->adjoint[f][c][j * grid->nu + i];
                     if (seed == 0) continue;
-                    ves_formula_gradient(d->formula[f][c], bound->number, at, seed, number_adjoint, NULL,
-                                         s->room);
+                    ves_formula_gradient(formula_of(chart, f, c), bound->number, at, seed, number_adjoint,
+                                         NULL, s->room);
                 }
 }
 
@@ -107,10 +148,7 @@ static ves_status derive(drawn *d, int c, ves_arena *arena)
         d->formula[f][c] = ves_formula_derivative(d->formula[parent[f]][c], argument[f], arena);
         if (!d->formula[f][c]) return VES_MEMORY;
     }
-    for (int f = 0; f < VES_FIELDS; f++) {
-        int room = ves_formula_room(d->formula[f][c]);
-        if (room > d->room) d->room = room;
-    }
+    for (int f = 0; f < VES_FIELDS; f++) d->room = larger(d->room, d->formula[f][c]);
     return VES_OK;
 }
 

@@ -133,7 +133,7 @@ static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
     const ves_grid *grid = chart->grid;
     (void)gradient;
     if (!ves_sheet_stale(chart)) return;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             for (int j = 0; j < grid->nv; j++) {
                 const double *row = t->v[ves_field_e[f]] + j * g->columns;
@@ -158,7 +158,7 @@ static void gather(ves_chart *chart, const ves_bound *bound, double *number_adjo
     ves_sheet *s = chart->state;
     const tables *t = s->tables;
     const ves_grid *grid = chart->grid;
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             for (int j = 0; j < grid->nv; j++) {
                 const double *row = t->v[ves_field_e[f]] + j * g->columns;

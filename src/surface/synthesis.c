@@ -153,7 +153,7 @@ static size_t offset(const ves_synthesis *s, int d, int c, const ves_tile *tile)
 void ves_synthesis_eval(const ves_synthesis *s, const double *mode, const ves_tile *tile,
                         ves_tile_planes *out)
 {
-    for (int f = 0; f < VES_FIELDS; f++) {
+    for (int f = 0; f < VES_POLE_FIELDS; f++) {
         if (!(tile->fields & 1u << f)) continue;
         int e = ves_field_e[f];
         const double *m = mode + offset(s, ves_field_d[f], 0, tile);
@@ -227,7 +227,7 @@ static void plain_transpose(const ves_synthesis *s, int e, const double *in, con
 void ves_synthesis_gradient(const ves_synthesis *s, const ves_tile *tile, const ves_tile_planes *adjoint,
                             double *mode_adjoint)
 {
-    for (int f = 0; f < VES_FIELDS; f++) {
+    for (int f = 0; f < VES_POLE_FIELDS; f++) {
         if (!(tile->fields & 1u << f)) continue;
         int e = ves_field_e[f];
         for (int c = 0; c < 3; c++) {

@@ -1,6 +1,7 @@
 #include "surface/tile.h"
 
-const int ves_field_d[VES_FIELDS] = {0, 1, 0, 2, 1, 0}, ves_field_e[VES_FIELDS] = {0, 0, 1, 0, 1, 2};
+const int ves_field_d[VES_POLE_FIELDS] = {0, 1, 0, 2, 1, 0, 1, 2, 2};
+const int ves_field_e[VES_POLE_FIELDS] = {0, 0, 1, 0, 1, 2, 2, 1, 2};
 
 /* What is cut along v: quarter rows of a symmetric grid, else rows. */
 static int pieces(const ves_grid *grid)
@@ -43,7 +44,7 @@ void ves_tile_at(const ves_grid *grid, int index, unsigned fields, ves_tile *til
 
 void ves_tile_scale(const ves_tile *tile, double factor, ves_tile_planes *field)
 {
-    for (int f = 0; f < VES_FIELDS; f++)
+    for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && tile->fields & 1u << f; c++)
             for (int k = 0; k < tile->rows * VES_LANES; k++) field->at[f * 3 + c][k] *= factor;
 }

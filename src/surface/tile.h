@@ -16,6 +16,9 @@
 
 enum { VES_FIELD_X, VES_FIELD_U, VES_FIELD_V, VES_FIELD_UU, VES_FIELD_UV, VES_FIELD_VV, VES_FIELDS };
 
+/* What else is needed at a pole (surface/pole.h). */
+enum { VES_FIELD_UVV = VES_FIELDS, VES_FIELD_UUV, VES_FIELD_UUVV, VES_POLE_FIELDS };
+
 enum {
     VES_TILE_ROWS = 16,
     VES_TILE_STRIDE = (VES_TILE_ROWS + 1) * VES_LANES
@@ -69,7 +72,7 @@ static inline double ves_lanes_sum(ves_lanes x)
 }
 
 /* Which derivative each field is: along u and along v. */
-extern const int ves_field_d[VES_FIELDS], ves_field_e[VES_FIELDS];
+extern const int ves_field_d[VES_POLE_FIELDS], ves_field_e[VES_POLE_FIELDS];
 
 typedef struct ves_tile {
     int block; /* first node along u */
@@ -83,7 +86,7 @@ typedef struct ves_tile {
 } ves_tile;
 
 typedef struct ves_tile_planes {
-    _Alignas(64) double at[VES_FIELDS * 3][VES_TILE_STRIDE];
+    _Alignas(64) double at[VES_POLE_FIELDS * 3][VES_TILE_STRIDE];
 } ves_tile_planes;
 
 /* Number of tiles of a grid, and the k-th. */
