@@ -18,11 +18,10 @@ typedef struct task {
     int above[WAITING]; /* the saddle that each has left: its place among the ends; -1: none */
     int ends;
     ves_end end[ENDS];
-    int escapes, halves;      /* saddles; those that were left to one side only */
-    double curvature, height; /* of the first saddle met */
-    int mostly;
-    int edges, edge; /* ends beside what cannot be measured; along which variable, at the first */
-    bool running;    /* at one of them the value has not stopped falling */
+    int escapes, halves; /* saddles; those that were left to one side only */
+    int mostly;          /* along which variable the first was */
+    int edges, edge;     /* ends beside what cannot be measured; along which variable, at the first */
+    bool running;        /* at one of them the value has not stopped falling */
     bool memory;
 } task;
 
@@ -49,14 +48,9 @@ static bool task_create(task *t, ves_session *session, int index, const ves_poli
 /* Steps off the saddle; what lies lower waits for its own descent. */
 static ves_status leave(task *t, int at)
 {
-    const ves_point *saddle = &t->end[at].point;
     ves_point *const side[2] = {&t->wait[t->waiting], &t->wait[t->waiting + 1]};
     bool found[2];
-    if (!t->escapes++) {
-        t->curvature = t->saddle.lowest;
-        t->mostly = t->saddle.mostly;
-        t->height = saddle->verdict.value;
-    }
+    if (!t->escapes++) t->mostly = t->saddle.mostly;
     ves_status status = ves_saddle_leave(&t->saddle, &t->descent, side, found);
     if (found[1] && !found[0]) {
         ves_point moved = *side[0];
@@ -154,11 +148,10 @@ static void note_saddles(polish *p)
                       : halves < saddles ? "left it, not always both ways"
                                          : "left it one way";
     ves_session_note(p->session,
-                     "%d of %d polish%s met a saddle (value %.9g): found a direction of negative curvature "
-                     "(eigenvalue %.3g, "
-                     "mostly %s); %s",
-                     met, p->tasks, p->tasks == 1 ? "" : "es", first->height, first->curvature,
-                     name_variable(p->session, first->mostly), left ? way : "not every one could be left");
+                     "%d of %d polish%s met a saddle: a direction whose curvature leads to better values "
+                     "(mostly %s); %s",
+                     met, p->tasks, p->tasks == 1 ? "" : "es", name_variable(p->session, first->mostly),
+                     left ? way : "not every one could be left");
 }
 
 /* Beside an edge of what can be measured nothing is said of saddles; a value that runs into it deserves a
