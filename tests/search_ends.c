@@ -126,6 +126,71 @@ Test(ends, curvature_along_infeasible_ways_is_no_saddle)
     ves_search_result_destroy(r);
 }
 
+/* ---- zero is no curvature ---- */
+
+/* f = offset + y / 3 + 0.7 z with y >= +-x^3: least at a cusp where nothing bends; the slope along the fourth
+ * variable is the rounding of 0. */
+static ves_status corner(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)worker;
+    const double *x = ask->x, third = 1.0 / 3;
+    double offset = *(double *)data, *g = gradient_of(ask, v);
+    v->value = offset + third * x[1] + 0.7 * x[2];
+    v->constraint[0] = x[0] * x[0] * x[0] - x[1];
+    v->constraint[1] = -x[0] * x[0] * x[0] - x[1];
+    if (!g) return VES_OK;
+    g[0] = 0, g[1] = third, g[2] = 0.7, g[3] = 1e-17 * sin(1e6 * x[3]);
+    for (int k = 0; k < 2; k++) {
+        double *slope = v->jacobian + 4 * k;
+        slope[0] = (k ? -3 : 3) * x[0] * x[0], slope[1] = -1, slope[2] = slope[3] = 0;
+    }
+    return VES_OK;
+}
+
+Test(ends, rounding_is_no_curvature)
+{
+    double offset[] = {0, 13, -1e6};
+    for (int k = 0; k < 3; k++) {
+        given g = {.evaluate = corner,
+                   .n = 4,
+                   .m = 2,
+                   .lower = {-3, -3, 0.5, -1},
+                   .upper = {3, 3, 2, 1.3},
+                   .start = {0.2, 0.4, 1, 0.1},
+                   .gradients = true,
+                   .data = &offset[k]};
+        ves_search_options o = ves_search_options_default();
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        /* the slope across a constraint times violations that cost nothing, 1e-10 */
+        cr_expect(r->feasible && fabs(r->value - offset[k] - 0.35) < 1e-9 * fmax(1, fabs(offset[k])), "%.12g",
+                  r->value);
+        cr_expect(noted(r, "saddle") == NULL, "%s", noted(r, "saddle"));
+        for (int i = 0; i < r->optima; i++) cr_expect(r->optimum[i].saddle == false);
+        ves_search_result_destroy(r);
+    }
+}
+
+/* The least curvature that counts: of 1e-9 of the objective it still does. */
+static ves_status faint(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)data, (void)worker;
+    double x = ask->x[0], *g = gradient_of(ask, v);
+    v->value = 1 + 1e-7 * (x * x * x * x - x * x);
+    if (g) g[0] = 1e-7 * (4 * x * x * x - 2 * x);
+    return VES_OK;
+}
+
+Test(ends, a_faint_saddle_is_left_all_the_same)
+{
+    given g = {.evaluate = faint, .n = 1, .lower = {-1}, .upper = {1}, .start = {0}, .gradients = true};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    cr_expect(fabs(r->value - (1 - 0.25e-7)) < 1e-12 && r->optima == 2, "%.12g", r->value); /* f_tolerance */
+    ves_search_result_destroy(r);
+}
+
 /* ---- nothing is lost ---- */
 
 /* A saddle at 0; what lies lower does not pass its proof. */

@@ -16,6 +16,7 @@ static const double step = 2e-5;       /* in u: truncation ~ 1e-10, noise of a g
 static const double near_wall = 1e-9;  /* in u */
 static const double near_limit = 1e-6; /* in u: an active constraint is so near, or within the tolerance */
 static const double clear = 1e-5;      /* a negative eigenvalue counts beyond this part of the largest */
+static const double speck = 1e-10;     /* and of the objective: 10 roundings of its slope over the step */
 static const double sideways =
     1e-6;                         /* of a unit direction, across a wall or a constraint: it runs along it */
 static const double steep = 1e-3; /* of the slope at the start: no descent stops there of itself */
@@ -222,9 +223,9 @@ static void project(ves_saddle *s)
     symmetrise(nf, s->hessian);
 }
 
-static bool judge(ves_saddle *s, int n, double noise)
+static bool judge(ves_saddle *s, const ves_descent *d, double noise)
 {
-    int nf = s->frees, low = 0;
+    int n = d->session->n, nf = s->frees, low = 0;
     s->largest = 0;
     for (int k = 0; k < nf; k++) {
         s->largest = fmax(s->largest, fabs(s->value[k]));
@@ -239,7 +240,8 @@ static bool judge(ves_saddle *s, int n, double noise)
     /* one sign for every machine and order of rotations */
     if (s->direction[s->mostly] < 0)
         for (int i = 0; i < n; i++) s->direction[i] = -s->direction[i];
-    return s->lowest < -fmax(clear * s->largest, 10 * noise);
+    double least = speck * fmax(fabs(s->lagrangian), d->first_scale);
+    return s->lowest < -fmax(fmax(clear * s->largest, 10 * noise), least);
 }
 
 /* Which sides of the direction are open, to first order. */
@@ -297,7 +299,7 @@ ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *poin
     double noise = symmetrise(s->frees, s->hessian);
     project(s);
     ves_eigen_symmetric(s->frees, s->hessian, s->value, s->vector);
-    if (!judge(s, n, noise)) return VES_OK;
+    if (!judge(s, d, noise)) return VES_OK;
     open_ways(s, d);
     *negative = s->way[0] || s->way[1];
     return VES_OK;
