@@ -76,6 +76,14 @@ Test(cli_faults, what_failed_a_check_stands_in_the_result)
     char *log = slurp("runs/crossed-0001/log.txt"), *once = strstr(log, "the surface crosses itself");
     cr_assert(once && !strstr(once + 1, "the surface crosses itself"), "said once: %s", log);
     free(log);
+    write_file("balls.yaml",
+               "vesica: 1\nvariables: {d: [0.5, 1.5, 4]}\npatches:\n"
+               "  o: {surface: {formula: [\"sin(pi*u)*cos(v)\", \"sin(pi*u)*sin(v)\", \"-cos(pi*u)\"]}}\n"
+               "  i: {surface: {formula: [\"0.9*sin(pi*u)*cos(v) + d\", \"0.9*sin(pi*u)*sin(v)\", "
+               "\"-0.9*cos(pi*u)\"]}}\nshape: {closed: true}\nminimize: (width - 4.2)^2\n"
+               "constraints: [volume >= 6]\n");
+    expect(vesica(NULL, "run balls.yaml"), 0,
+           "notes      the start design did not pass its checks: the surface crosses itself", NULL, "run");
     root_remove();
 }
 

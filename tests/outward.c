@@ -171,6 +171,26 @@ Test(outward, a_hollow_stays_in_its_body_and_a_body_out_of_the_other)
     bed_clear(&b);
 }
 
+/* Whichever node lies in the other ball: what overlaps at the start is no hollow, and has no wrong sign. */
+Test(outward, parts_that_overlap_at_the_start_are_both_solid)
+{
+    static const char *const variable[] = {"x: [-9, 3.3, 9]", "x: [-9, 2.2, 9]", "x: [-9, -2.2, 9]",
+                                           "x: [-9, -3.9, 9]"};
+    const double start[] = {3.3, 2.2, -2.2, -3.9}, out = -8.5, in = 0.5;
+    for (int k = 0; k < 4; k++) {
+        char text[1500];
+        double value;
+        balls_write(text, sizeof text, variable[k], "x", "1");
+        bed b = bed_make(text);
+        cr_expect_eq(judged(&b, &start[k], VES_WANT_VALUE, &value), VES_OK);
+        cr_expect(fabs(value / (4 * PI / 3 * 28) - 1) < 1e-12, "from %g: volume %.15g", start[k], value);
+        cr_expect_eq(judged(&b, &start[k], VES_WANT_PROOF, &value), VES_SELF_INTERSECTS);
+        has_volume(&b, &out, 4 * PI / 3 * 28);
+        cr_expect_eq(judged(&b, &in, VES_WANT_PROOF, &value), VES_INVERTED);
+        bed_clear(&b);
+    }
+}
+
 /* What needs no inside is measured on a shape that has none. */
 Test(outward, a_shape_without_an_inside_has_an_area)
 {

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-enum { ALONG = 16, AROUND = 32 };
+enum { ALONG = 16, AROUND = 32, LOOKS = 100 };
 
 /* Below this share of its area times its size, what a part encloses is rounding: it has no outside (a flat
  * sheet, a saddle), and keeps Xu x Xv of its first patch. */
@@ -75,19 +75,38 @@ static double facing_volume(const facing *f)
     return fabs(volume) > NOTHING * f->area * size ? volume : 0;
 }
 
-/* A closed part inside another bounds a hollow: its outside is within. */
+/* Does a node of a patch lie inside a closed part? */
+static bool is_inside(const ves_plan *plan, const ves_figure *figure, const ves_figure_patch *own, int node,
+                      int part, int *corner)
+{
+    const double at[3] = {own->X[0][node], own->X[1][node], own->X[2][node]};
+    double angle = 0;
+    for (int k = 0; k < figure->patches; k++)
+        if (plan->part[k] == part) triangles_visit(&figure->patch[k], at, corner, angle_add, &angle);
+    return fabs(angle) > VES_TWO_PI; /* half of all directions */
+}
+
+/* Does a part lie in another as a whole? Nodes all over it tell, an odd number apart so that rows are met at
+ * many places; and the middle one first, which mostly will do. */
+static bool lies_in(const ves_plan *plan, const ves_figure *figure, int part, int other, int *corner)
+{
+    const ves_figure_patch *first = &figure->patch[part];
+    if (!is_inside(plan, figure, first, first->nu / 2 * first->columns, other, corner)) return false;
+    for (int k = 0; k < figure->patches; k++) {
+        const ves_figure_patch *own = &figure->patch[k];
+        int count = own->rows * own->columns, step = (count / LOOKS) | 1;
+        for (int node = 0; node < count && plan->part[k] == part; node += step)
+            if (!is_inside(plan, figure, own, node, other, corner)) return false;
+    }
+    return true;
+}
+
+/* A closed part inside another bounds a hollow: its outside is within. Parts that overlap are both solid. */
 static bool is_hollow(const ves_plan *plan, const ves_figure *figure, int part, int *corner)
 {
-    const ves_figure_patch *own = &figure->patch[part];
-    int within = 0, node = own->nu / 2 * own->columns;
-    const double at[3] = {own->X[0][node], own->X[1][node], own->X[2][node]};
-    for (int other = 0; other < figure->patches; other++) {
-        double angle = 0;
-        if (plan->part[other] != other || other == part) continue;
-        for (int k = 0; k < figure->patches; k++)
-            if (plan->part[k] == other) triangles_visit(&figure->patch[k], at, corner, angle_add, &angle);
-        within += fabs(angle) > VES_TWO_PI; /* half of all directions */
-    }
+    int within = 0;
+    for (int other = 0; other < figure->patches; other++)
+        if (plan->part[other] == other && other != part) within += lies_in(plan, figure, part, other, corner);
     return within % 2;
 }
 

@@ -443,31 +443,29 @@ static ves_status settle_best(study *s)
     return keep_note(s, text);
 }
 
+/* The dear checks of the start; a note where they fail. */
+static ves_status start_prove(study *s, const char *what, ves_status *proof)
+{
+    char text[SENTENCE];
+    ves_verdict verdict = {0};
+    ves_ask ask = {.x = s->run->start.x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
+    ves_status status = ves_plan_evaluate(s->plan[0], &ask, &verdict);
+    if (status != VES_OK) return complain(s->diag, status);
+    *proof = verdict.status;
+    snprintf(text, sizeof text, "the %s did not pass its checks: %s", what, ves_status_text(*proof));
+    return *proof == VES_OK ? VES_OK : keep_note(s, text);
+}
+
 static ves_status search(study *s)
 {
     stage_names(s);
+    ves_status proof; /* a search goes on from a start that fails it */
+    if (s->run->start.status == VES_OK) VES_TRY(start_prove(s, "start design", &proof));
     VES_TRY(search_with(s, &s->search, NULL, 0));
     return s->run->any ? settle_best(s) : VES_OK;
 }
 
 /* --- without a search --- */
-
-/* The dear checks that a search makes of its best. */
-static ves_status prove(study *s)
-{
-    ves_run *run = s->run;
-    ves_verdict verdict = {0};
-    ves_ask ask = {.x = run->start.x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
-    ves_status status = ves_plan_evaluate(s->plan[0], &ask, &verdict);
-    if (status != VES_OK) return complain(s->diag, status);
-    if (verdict.status == VES_OK) return VES_OK;
-    run->feasible = false;
-    run->proof = verdict.status;
-    char text[SENTENCE];
-    snprintf(text, sizeof text, "the design did not pass its checks: %s", ves_status_text(verdict.status));
-    ves_plan_why(s->plan[0], verdict.status, "the design did not pass its checks", s->diag);
-    return keep_note(s, text);
-}
 
 static ves_status once(study *s)
 {
@@ -477,7 +475,11 @@ static ves_status once(study *s)
     run->feasible = run->start.feasible;
     VES_TRY(measure(s, run->start.x, 1, &run->finer));
     VES_TRY(measure(s, run->start.x, 0, &run->best));
-    if (run->any && (s->options->prove || !s->options->once)) VES_TRY(prove(s));
+    if (!run->any || (s->options->once && !s->options->prove)) return VES_OK;
+    VES_TRY(start_prove(s, "design", &run->proof));
+    if (run->proof == VES_OK) return VES_OK;
+    run->feasible = false;
+    ves_plan_why(s->plan[0], run->proof, "the design did not pass its checks", s->diag);
     return VES_OK;
 }
 
