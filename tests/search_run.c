@@ -2,6 +2,7 @@
  * proofs, memory. */
 #include <criterion/criterion.h>
 #include <criterion/new/assert.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -256,7 +257,7 @@ Test(search_run, options_out_of_range_are_refused)
     given good = problem_can;
     ves_search_options fine = ves_search_options_default();
     ves_search_result *r;
-    for (int k = 0; k < 19; k++) {
+    for (int k = 0; k < 22; k++) {
         given g = good;
         ves_search_options o = only_anneal(100), p = only_polish("slsqp");
         ves_anneal *a = &o.stage[0].anneal;
@@ -320,11 +321,28 @@ Test(search_run, options_out_of_range_are_refused)
         case 18:
             q->x_tolerance = NAN, polish = true;
             break;
+        case 19:
+            a->evaluations = LONG_MAX;
+            break;
+        case 20:
+            q->evaluations = (1L << 53) + 1, polish = true;
+            break;
+        case 21:
+            o.evaluations = LONG_MAX;
+            break;
         }
         r = (ves_search_result *)1;
         cr_expect(run(&g, polish ? &p : &o, NULL, &r) == VES_RANGE && r == NULL, "case %d", k);
     }
     cr_assert(run(&good, &fine, NULL, &r) == VES_OK);
+    ves_search_result_destroy(r);
+    fine.stages = VES_STAGES; /* sums of the largest budgets do not overflow */
+    for (int k = 0; k < VES_STAGES; k++) {
+        fine.stage[k] = (ves_stage){.kind = VES_STAGE_POLISH};
+        fine.stage[k].polish.evaluations = 1L << 53;
+    }
+    cr_assert(run(&good, &fine, NULL, &r) == VES_OK);
+    cr_expect(r->budget == 16 * (1L << 53) + 17 && r->ending == VES_ENDED_DONE);
     ves_search_result_destroy(r);
     cr_assert(run(&good, NULL, NULL, &r) == VES_OK); /* NULL options: auto */
     ves_search_result_destroy(r);

@@ -90,8 +90,8 @@ typedef struct ves_search_options {
     ves_stage stage[VES_STAGES];
     uint64_t seed; /* default: 1 */
 
-    /* Budget of the whole search, never exceeded; 0: the sum of the stages, the start and 16 proofs. Proofs
-     * are evaluations like any other: an annealing asks for at most 16 and a tenth of its budget, a polish
+    /* Budget of the whole search, never exceeded; 0: the sum of the stages, the start and 16 proofs. At most
+     * 2^53, like those of the stages. Proofs are evaluations like any other: an annealing asks for at most 16 and a tenth of its budget, a polish
      * for at most 3; a twentieth of the whole, 1 to 16, is kept for the end, where the best and the optima
      * are proved. A budget of 1 measures the start and proves nothing: the result is unproved, and counts as
      * infeasible. */
@@ -110,7 +110,7 @@ typedef struct ves_progress {
     long evaluations, budget;
     double temperature, acceptance; /* of annealing; else NAN */
     bool any;                       /* some candidate was measured: value, violation hold */
-    double value, violation;        /* best so far */
+    double value, violation;        /* best so far; violation: of a verdict. A run tells that of a design */
 } ves_progress;
 
 /* One evaluation, for the trace. */
@@ -119,9 +119,10 @@ typedef struct ves_record {
     int stage, chain; /* chain: of an annealing, or the number of the polish; -1: proofs and other questions
                          of the whole search */
     const double *x;
+    const double *constraint; /* [m] hold when status is VES_OK */
     double value, violation, temperature;
     ves_status status;
-    bool accepted, gradient;
+    bool accepted, gradient, proof; /* proof: asked with VES_WANT_PROOF */
 } ves_record;
 
 typedef struct ves_search_hooks {
@@ -135,8 +136,8 @@ typedef struct ves_search_hooks {
  * feel left out) of no better one, nor the `same` as one. */
 typedef struct ves_optimum {
     const double *x;
-    double value, violation;
-    int hits;    /* how many polishes ended here */
+    double value, violation; /* of a verdict; in a run those of a design */
+    int hits;                /* how many polishes ended here */
     bool saddle; /* the second-order check found a direction of negative curvature that could not be left */
 } ves_optimum;
 

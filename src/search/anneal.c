@@ -100,7 +100,7 @@ static void place(anneal *a, double weight, double margin)
         chain->margin = margin;
         chain->heaviest = a->options->weight == 0 ? 1e8 * weight : weight;
         bool taken = session->ends > 1 || k == 0 || chain->best.verdict.status != VES_OK;
-        ves_chain_place(chain, taken ? &session->end[k % session->ends].point : &chain->best);
+        ves_chain_place(chain, taken ? &session->end[k % session->ends].point : NULL);
     }
 }
 

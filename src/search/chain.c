@@ -63,10 +63,10 @@ static void remember(ves_chain *chain, const ves_point *point)
 void ves_chain_place(ves_chain *chain, const ves_point *point)
 {
     const ves_session *session = chain->asker.session;
-    ves_point_copy(&chain->current, point, session->n, session->m);
-    ves_point_copy(&chain->home, point, session->n, session->m);
-    ves_point_copy(&chain->best, point, session->n, session->m);
-    remember(chain, point);
+    if (point) ves_point_copy(&chain->best, point, session->n, session->m);
+    ves_point_copy(&chain->current, &chain->best, session->n, session->m);
+    ves_point_copy(&chain->home, &chain->best, session->n, session->m);
+    remember(chain, &chain->current);
     chain->energy = energy(chain, &chain->current);
 }
 

@@ -37,7 +37,7 @@ typedef struct ves_chain {
 /* False when out of memory. */
 bool ves_chain_init(ves_chain *chain, ves_session *session, int index, const ves_anneal *options);
 
-/* Puts the chain at a measured point. */
+/* Puts the chain at a measured point; NULL: at its own best. */
 void ves_chain_place(ves_chain *chain, const ves_point *point);
 
 /* One draw of the warm-up: into candidate, and into best when it is. */

@@ -4,6 +4,9 @@
 #include "search/algorithms.h"
 #include "search/session.h"
 
+/* Of one stage or of the whole search: sums of these do not overflow. */
+static const long most_evaluations = 1L << 53;
+
 ves_anneal ves_anneal_default(void)
 {
     return (ves_anneal){0};
@@ -46,16 +49,22 @@ static bool bad(double value)
     return !(value >= 0 && isfinite(value));
 }
 
+static bool bad_budget(long evaluations)
+{
+    return evaluations < 0 || evaluations > most_evaluations;
+}
+
 static ves_status check_anneal(const ves_anneal *a)
 {
-    if (a->evaluations < 0 || a->chains < 0) return VES_RANGE;
+    if (bad_budget(a->evaluations) || a->chains < 0) return VES_RANGE;
     if (bad(a->c0) || bad(a->c_end) || bad(a->step) || bad(a->weight)) return VES_RANGE;
     return a->c_end <= 1 && a->step <= 1 && a->s >= 0 && a->s < 1 ? VES_OK : VES_RANGE;
 }
 
 static ves_status check_polish(const ves_polish *p)
 {
-    if (p->evaluations < 0 || p->starts < 0 || bad(p->x_tolerance) || bad(p->f_tolerance)) return VES_RANGE;
+    if (bad_budget(p->evaluations) || p->starts < 0 || bad(p->x_tolerance) || bad(p->f_tolerance))
+        return VES_RANGE;
     const ves_algorithm *a = ves_search_algorithms();
     while (p->algorithm && a->name && strcmp(a->name, p->algorithm)) a++;
     return a->name ? VES_OK : VES_RANGE;
@@ -64,7 +73,8 @@ static ves_status check_polish(const ves_polish *p)
 ves_status ves_search_check(const ves_search_problem *problem, const ves_search_options *options)
 {
     VES_TRY(check_box(problem));
-    if (options->stages < 0 || options->stages > VES_STAGES || options->evaluations < 0) return VES_RANGE;
+    if (options->stages < 0 || options->stages > VES_STAGES || bad_budget(options->evaluations))
+        return VES_RANGE;
     for (int k = 0; k < options->stages; k++) {
         const ves_stage *stage = &options->stage[k];
         if (stage->kind == VES_STAGE_ANNEAL)
@@ -88,14 +98,16 @@ const char *ves_search_algorithm(const ves_search_problem *problem, const ves_po
  * for each variable; differences pay n + 1 evaluations for each step. */
 static long polish_budget(const ves_search_problem *problem, const ves_polish *polish, int starts)
 {
-    long n = problem->n;
+    double n = problem->n, steps = 500 + 40 * n;
     const char *name = ves_search_algorithm(problem, polish);
     bool gradient = ves_recipe_find(name, problem->n, problem->gradients).gradient;
-    long steps = 500 + 40 * n;
     if (!strcmp(name, "mma") || !strcmp(name, "ccsa")) steps *= 5; /* of first order */
-    if (gradient && problem->gradients) return starts * steps;
-    if (gradient) return starts * steps / 2 * (n + 1);
-    return starts * (2000 + 400 * n);
+    if (!gradient)
+        steps = 2000 + 400 * n;
+    else if (!problem->gradients)
+        steps *= (n + 1) / 2;
+    double all = starts * steps;
+    return all < (double)most_evaluations ? (long)all : most_evaluations;
 }
 
 /* What stays 0 is found from the data. */
