@@ -48,7 +48,8 @@ double ves_plan_grid(const ves_plan *plan, int quadrature[2]);
  * says of its grid. *change: what ves_plan_grid returns. Returns VES_OK, or negative for faults. */
 ves_status ves_plan_choose(const ves_problem *problem, const double *x, int quadrature[2], double *change);
 
-/* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation. With
+/* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation: in units
+ * of `within`, which counts 1e-6, where those of ves_design are in units of sizes. With
  * VES_WANT_PROOF the candidate is also measured at level 1, must agree within 1 %, must not violate a
  * constraint by 1 % of its size more, and must not cross itself (validity: self_intersection). The arrays of
  * verdict are the caller's, and ask->level does not matter to a proof. A candidate that fails is

@@ -2,8 +2,8 @@
  * chosen at the start design, the search of the file runs on `jobs` threads, and the best is measured again on
  * a grid twice as fine. When that changes it by more than 1e-6, the grid is chosen once more, at the best, and
  * the last polish of the search is repeated there on it, from all the optima and with what is left of the
- * budget; a note tells it, or, where the file gives the grid, asks for no polish, or no budget is left, what grid to give. A problem
- * without variables is measured once.
+ * budget; a note tells it, or, where the file gives the grid, asks for no polish, or no budget is left, what
+ * grid to give. A problem without variables is measured once.
  *
  * Numbers have the sign and the units of the file (SI, angles in radians; in a file without units: its own).
  * The same seed gives the same result for any number of jobs. Several runs may go on at once, in threads of
@@ -94,6 +94,7 @@ typedef struct ves_run {
     int notes;
     const char *const *note; /* sentences: what failed a check, saddles left, budget too short ... */
     long evaluations, gradients;
+    long refused; /* of the evaluations: proofs that a best did not pass */
     int failures;
     const ves_run_failure *failure; /* by status, those that happened */
     int expects;
@@ -105,7 +106,7 @@ typedef struct ves_run {
 } ves_run;
 
 /* Called from the thread that called ves_run_create, but `stopped` from any. Values have the sign of the
- * file. */
+ * file, violations are those of designs. */
 typedef struct ves_run_hooks {
     void (*begun)(void *data,
                   const ves_run *run); /* all is ready, the search begins: run has no result yet */

@@ -48,15 +48,15 @@ static void topics(app *a, ves_topic *topic)
                   ves_arena_format(
                       &a->arena, "a kind of picture\n      example: vesica show problem.yaml --png shape.%s",
                       picture[k]));
-    topic_add(
-        a, topic, &count, "trace",
-        "the candidates of a run, trace.jsonl in its folder: one JSON object a line\n"
-        "      with evaluation, stage, chain, x (SI), value, violation, T, accepted, status; x in the "
-        "order of\n"
-        "      `variables` in result.json; violation as the search sees it: 1e-6 is the `within` of each "
-        "constraint.\n"
-        "      --trace short|all|accepted|none says which are kept\n"
-        "      example: vesica run problem.yaml --trace all");
+    topic_add(a, topic, &count, "trace",
+              "the candidates of a run, trace.jsonl in its folder: one JSON object a line\n"
+              "      with evaluation, stage, chain, x (SI), value, violation, T, accepted, status; x in the "
+              "order of\n"
+              "      `variables` in result.json; violation as there, in units of each constraint's size; "
+              "value and\n"
+              "      violation are null where status says why the candidate was not measured, or refused.\n"
+              "      --trace short|all|accepted|none says which are kept\n"
+              "      example: vesica run problem.yaml --trace all");
     for (const app_command *c = app_commands; c->name; c++)
         topic_add(a, topic, &count, c->name,
                   ves_arena_format(&a->arena, "a command: vesica %s\n      %s (vesica help %s)", c->usage,

@@ -1,3 +1,4 @@
+#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -110,6 +111,13 @@ void ves_json_integer(ves_json *json, const char *key, long value)
 {
     begin(json, key, false);
     fprintf(json->out, "%ld", value);
+    finish(json);
+}
+
+void ves_json_count(ves_json *json, const char *key, uint64_t value)
+{
+    begin(json, key, false);
+    fprintf(json->out, "%" PRIu64, value);
     finish(json);
 }
 

@@ -4,6 +4,7 @@
 #define VES_OUTPUT_OUTPUT_H
 
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include "surface/figure.h"
@@ -33,6 +34,7 @@ void ves_json_array(ves_json *json, const char *key);
 void ves_json_end(ves_json *json, char bracket); /* '}' or ']' */
 void ves_json_number(ves_json *json, const char *key, double value);
 void ves_json_integer(ves_json *json, const char *key, long value);
+void ves_json_count(ves_json *json, const char *key, uint64_t value);
 void ves_json_text(ves_json *json, const char *key, const char *value); /* NULL: null */
 void ves_json_flag(ves_json *json, const char *key, bool value);
 

@@ -13,7 +13,7 @@ void ves_asker_init(ves_asker *asker, ves_session *session, int member)
 void ves_asker_destroy(ves_asker *asker)
 {
     ves_memory_free(asker->journal.event);
-    ves_memory_free(asker->journal.x);
+    ves_memory_free(asker->journal.row);
     asker->journal = (ves_journal){0};
 }
 
@@ -45,7 +45,7 @@ ves_status ves_asker_judge(ves_asker *asker, const ves_ask *ask, ves_verdict *ve
     ves_session *session = asker->session;
     if (asker->fault) return asker->fault;
     if (session->fault) return session->fault;
-    if (!asker->insists && ves_session_over(session)) return VES_INTERRUPTED;
+    if (!asker->proves && ves_session_over(session)) return VES_INTERRUPTED;
     verdict->status = VES_OK;
     verdict->value = verdict->violation = NAN;
     ves_status status = session->problem->evaluate(session->problem->data, asker->worker, ask, verdict);
@@ -70,7 +70,7 @@ ves_status ves_asker_judge(ves_asker *asker, const ves_ask *ask, ves_verdict *ve
     return VES_OK;
 }
 
-static void tell(ves_asker *asker, const ves_event *event, const double *x)
+static void tell(ves_asker *asker, const ves_event *event, const double *x, const double *constraint)
 {
     ves_session *session = asker->session;
     ves_verdict verdict = {.status = event->status, .value = event->value, .violation = event->violation};
@@ -81,27 +81,29 @@ static void tell(ves_asker *asker, const ves_event *event, const double *x)
                              .stage = session->stage_index,
                              .chain = asker->member,
                              .x = x,
+                             .constraint = constraint,
                              .value = event->value,
                              .violation = event->violation,
                              .temperature = event->temperature,
                              .status = event->status,
                              .accepted = event->accepted,
-                             .gradient = event->gradient};
+                             .gradient = event->gradient,
+                             .proof = event->proof};
         session->hooks.record(session->hooks.data, &record);
     }
     if (session->told % PROGRESS_EVERY == 0) ves_session_progress(session);
 }
 
-static bool journal_grow(ves_journal *journal, int n, bool points)
+static bool journal_grow(ves_journal *journal, int width, bool points)
 {
     long room = journal->room ? 2 * journal->room : FIRST_ROOM;
     ves_event *event = ves_memory_grow(journal->event, (size_t)room * sizeof *event);
     if (!event) return false;
     journal->event = event;
     if (points) {
-        double *x = ves_memory_grow(journal->x, (size_t)room * (size_t)n * sizeof *x);
-        if (!x) return false;
-        journal->x = x;
+        double *row = ves_memory_grow(journal->row, (size_t)room * (size_t)width * sizeof *row);
+        if (!row) return false;
+        journal->row = row;
     }
     journal->room = room;
     return true;
@@ -119,19 +121,24 @@ void ves_asker_record(ves_asker *asker, const double *x, const ves_verdict *verd
                        .temperature = temperature,
                        .status = verdict->status,
                        .accepted = accepted,
-                       .gradient = gradient};
+                       .gradient = gradient,
+                       .proof = asker->proves};
     if (ves_pool_workers(session->pool) == 1) {
-        tell(asker, &event, x);
+        tell(asker, &event, x, verdict->constraint);
         return;
     }
     ves_journal *journal = &asker->journal;
-    int n = session->n;
+    int n = session->n, m = session->m;
     bool points = session->hooks.record;
-    if (journal->count == journal->room && !journal_grow(journal, n, points)) {
+    if (journal->count == journal->room && !journal_grow(journal, n + m, points)) {
         asker->fault = VES_MEMORY;
         return;
     }
-    if (points) memcpy(journal->x + journal->count * n, x, (size_t)n * sizeof *x);
+    if (points) {
+        double *row = journal->row + journal->count * (n + m);
+        memcpy(row, x, (size_t)n * sizeof *x);
+        if (m) memcpy(row + n, verdict->constraint, (size_t)m * sizeof *row);
+    }
     journal->event[journal->count++] = event;
 }
 
@@ -139,8 +146,10 @@ void ves_asker_flush(ves_asker *asker)
 {
     ves_session *session = asker->session;
     ves_journal *journal = &asker->journal;
-    for (long k = 0; k < journal->count; k++)
-        tell(asker, &journal->event[k], journal->x ? journal->x + k * session->n : NULL);
+    for (long k = 0; k < journal->count; k++) {
+        const double *x = journal->row ? journal->row + k * (session->n + session->m) : NULL;
+        tell(asker, &journal->event[k], x, x ? x + session->n : NULL);
+    }
     journal->count = 0;
     session->evaluations += asker->evaluations;
     session->gradients += asker->gradients;

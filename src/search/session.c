@@ -184,7 +184,7 @@ ves_status ves_session_prove(ves_session *session, ves_point *point, ves_proof *
     if (!ves_session_costs(session, point)) return VES_OK;
     ves_asker asker;
     ves_asker_init(&asker, session, -1);
-    asker.insists = true;
+    asker.proves = true;
     double *constraint = ves_arena_take(&session->arena, (size_t)session->m, sizeof(double));
     if (!constraint) return VES_MEMORY;
     ves_verdict verdict = {.constraint = constraint};

@@ -31,12 +31,12 @@ typedef struct ves_end {
 typedef struct ves_event {
     double value, violation, temperature;
     ves_status status;
-    bool accepted, gradient;
+    bool accepted, gradient, proof;
 } ves_event;
 
 typedef struct ves_journal {
     ves_event *event;
-    double *x; /* [room][n], only for a record hook */
+    double *row; /* [room][n + m] where, and the constraints there: only for a record hook */
     long count, room;
 } ves_journal;
 
@@ -44,7 +44,7 @@ typedef struct ves_journal {
 typedef struct ves_asker {
     ves_session *session;
     int member, worker;
-    bool insists; /* asks even after a stop: an interrupted search still proves its best */
+    bool proves; /* asks even after a stop: an interrupted search still proves its best */
     long evaluations, gradients, failed; /* not yet merged */
     ves_status fault;                    /* negative: the search must end */
     ves_journal journal;

@@ -1,5 +1,6 @@
 #include "study/design.h"
 
+#include <math.h>
 #include <string.h>
 
 /* NULL when out of memory. */
@@ -31,4 +32,16 @@ ves_status ves_design_measure(ves_plan *plan, const ves_problem *problem, const 
     if (!d.slot || !d.measure || !d.side) return VES_MEMORY;
     *design = d;
     return VES_OK;
+}
+
+double ves_design_violation(const ves_problem *problem, const ves_record *record)
+{
+    if (record->status != VES_OK) return NAN;
+    double worst = 0;
+    for (int k = 0; k < problem->constraints; k++) {
+        const ves_constraint_def *c = &problem->constraint[k];
+        double e = record->constraint[k] * (c->within / VES_FEASIBLE);
+        worst = fmax(worst, c->relation == VES_EQUAL ? fabs(e) : e);
+    }
+    return worst;
 }

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "study/trace.h"
+
 static void variables(const ves_problem *problem, const double *x, ves_json *json)
 {
     ves_json_object(json, "variables");
@@ -151,7 +153,7 @@ static void statistics(const ves_run *run, ves_json *json)
 {
     ves_json_object(json, "failed");
     for (int k = 0; k < run->failures; k++)
-        ves_json_integer(json, ves_status_text(run->failure[k].status), run->failure[k].count);
+        ves_json_integer(json, ves_tracer_word(run->failure[k].status), run->failure[k].count);
     ves_json_end(json, '}');
     ves_json_array(json, "temperatures");
     for (int k = 0; k < run->temperatures; k++) {
@@ -195,8 +197,9 @@ void ves_result_write(const ves_run *run, ves_json *json)
     units(problem, json);
     ves_json_integer(json, "evaluations", run->evaluations);
     ves_json_integer(json, "gradients", run->gradients);
+    ves_json_integer(json, "refused", run->refused);
     ves_json_text(json, "stop", run->stop);
-    ves_json_integer(json, "seed", (long)run->seed);
+    ves_json_count(json, "seed", run->seed);
     ves_json_text(json, "version", VESICA_VERSION);
     plugins(problem, json);
     grids(run, json);

@@ -31,7 +31,9 @@ typedef struct study {
     int stage;
     int stages_before; /* of searches that are over, and their evaluations */
     long evaluations_before;
-    long left;                 /* of the budget */
+    long left;        /* of the budget */
+    ves_verdict seen; /* the best that the search has told, and its violation as in a design */
+    double seen_violation;
     long failed[STATUS_KINDS]; /* candidates that could not be measured, by status */
     ves_status files;          /* the first file that could not be written */
 } study;
@@ -238,7 +240,14 @@ static void hear_record(void *data, const ves_record *heard)
     if (record.stage >= VES_STAGES) record.stage = VES_STAGES - 1;
     if (record.stage != s->stage && record.stage >= 0) stage_enter(s, record.stage);
     s->run->times.stage[s->stage].evaluations++;
-    if (kind > 0 && kind < STATUS_KINDS) s->failed[kind]++;
+    bool failed = record.status != VES_CUT && !record.proof; /* cut and refused ones could be measured */
+    if (failed && kind > 0 && kind < STATUS_KINDS) s->failed[kind]++;
+    const ves_verdict verdict = {
+        .status = record.status, .value = record.value, .violation = record.violation};
+    if (ves_verdict_better(&verdict, &s->seen, VES_FEASIBLE)) {
+        s->seen = verdict;
+        s->seen_violation = ves_design_violation(s->problem, &record);
+    }
     ves_tracer_write(&s->tracer, &record);
 }
 
@@ -247,6 +256,7 @@ static void hear_progress(void *data, const ves_progress *progress)
     study *s = data;
     ves_progress shown = *progress;
     if (s->problem->maximize) shown.value = -shown.value;
+    if (shown.any) shown.violation = s->seen_violation;
     shown.stage += s->stages_before;
     shown.evaluations += s->evaluations_before;
     shown.budget += s->evaluations_before;
@@ -280,15 +290,6 @@ static void rest(study *s, double *x)
         }
 }
 
-/* A verdict's violation is in units of each constraint's `within`; what is told is in units of their sizes. */
-static ves_status violation(study *s, const double *x, double *value)
-{
-    ves_design design;
-    ves_status status = ves_plan_measure(s->plan[0], x, 0, &design);
-    if (status == VES_OK) *value = design.violation;
-    return status < VES_OK ? status : VES_OK;
-}
-
 static ves_status optima_take(study *s, const ves_search_result *r)
 {
     double sign = s->problem->maximize ? -1 : 1;
@@ -302,7 +303,9 @@ static ves_status optima_take(study *s, const ves_search_result *r)
         optimum[k] = r->optimum[k];
         optimum[k].x = x;
         optimum[k].value *= sign;
-        VES_TRY(violation(s, x, &optimum[k].violation));
+        ves_design design; /* its violation is in units of sizes, a verdict's in those of each `within` */
+        VES_TRY(ves_design_measure(s->plan[0], s->problem, x, 0, s->arena, &design));
+        optimum[k].violation = design.violation;
     }
     s->run->optimum = optimum;
     s->run->optima = r->optima;
@@ -342,6 +345,7 @@ static ves_status result_take(study *s, const ves_search_result *r)
     run->any = r->any || run->start.status == VES_OK; /* a search may be stopped before it has begun */
     run->evaluations += r->evaluations;
     run->gradients += r->gradients;
+    run->refused += r->refused;
     if (words_take(s, r) != VES_OK || counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK)
         return complain(s->diag, VES_MEMORY);
     double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
@@ -367,6 +371,7 @@ static ves_status search_with(study *s, const ves_search_options *options, const
     s->stages_before = run->times.stages;
     s->evaluations_before = run->evaluations;
     s->stage = -1;
+    s->seen = (ves_verdict){.status = VES_NO_NUMBER};
     double begun = ves_study_clock();
     ves_status status = ves_search_run(&problem, options, &hooks, &result);
     stage_enter(s, s->stage);

@@ -6,6 +6,7 @@
 
 #include "base/diag.h"
 #include "output/file.h"
+#include "study/design.h"
 
 /* Room for the words and the fixed numbers of a line, and for each variable: a line of the tube with 17
  * variables has about 300 bytes. */
@@ -25,8 +26,7 @@ ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, ves_arena *are
     return tracer->out ? VES_OK : ves_file_complain(path, errno, tracer->diag);
 }
 
-/* The name in VES_STATUS_LIST: FOLDED, NO_NUMBER ... */
-static const char *word(ves_status status)
+const char *ves_tracer_word(ves_status status)
 {
     switch (status) {
 #define CASE(name, value, sentence)                                                                          \
@@ -61,10 +61,10 @@ static size_t compose(const ves_tracer *tracer, const ves_record *r, char *at)
         at += snprintf(at, EACH, k ? ",%.17g" : "%.17g", r->x[k]);
     *at++ = ']';
     at += number(at, "value", r->status == VES_OK ? sign * r->value : NAN, "%.17g");
-    at += number(at, "violation", r->violation, "%.9g");
+    at += number(at, "violation", ves_design_violation(tracer->problem, r), "%.9g");
     at += number(at, "T", r->temperature, "%.9g");
     at += snprintf(at, FIXED / 4, ",\"accepted\":%s,\"status\":\"%s\"}\n", r->accepted ? "true" : "false",
-                   word(r->status));
+                   ves_tracer_word(r->status));
     return (size_t)(at - begin);
 }
 
