@@ -328,3 +328,87 @@ Test(plan, with_scale_a_shape_in_two_sizes_is_one)
     cr_expect(ves_plan_search(&b.plan, 1).same == NULL, "variables tell sizes apart");
     bed_clear(&b);
 }
+
+/* --- sizes --- */
+
+#define GROWN(rest)                                                                                          \
+    "vesica: 1\nvariables: {r: [0.1, 1, 2], z: [-1, 1, 1]}\nquadrature: {u: 8, v: 16}\n"                     \
+    "curves: {p: {circle: {radius: 1}}, q: {circle: {radius: r - 0.5, centre: [0, 0, 1]}}}\n"                \
+    "patches: {w: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: p}, {u: 1, position: q}]}}\n"   \
+    "minimize: depth + z^2\n" rest
+
+/* How far the figure of x, a point and the spine go along z. */
+typedef struct reach {
+    double figure, point, spine, similarity;
+    ves_status status;
+    char said[400];
+} reach;
+
+static reach reach_of(const bed *b, double r, double z)
+{
+    const double x[2] = {r, z}, u = 1, v = 0.3;
+    double point[18], spine[9];
+    ves_figure *figure;
+    ves_diag *diag = ves_diag_create();
+    ves_design design;
+    reach got = {.said = ""};
+    cr_assert_eq(ves_plan_points(b->plan, 0, 1, &u, &v, point), VES_OK);
+    got.status = ves_plan_measure(b->plan, x, 0, &design);
+    got.similarity = design.similarity;
+    cr_assert_eq(ves_plan_points(b->plan, 0, 1, &u, &v, point), VES_OK);
+    cr_assert_eq(ves_plan_spine(b->plan, 0, 1, &u, spine), VES_OK);
+    got.point = point[2], got.spine = spine[2], got.figure = NAN;
+    if (ves_plan_figure(b->plan, x, 8, 16, &figure, diag) == VES_OK) {
+        ves_mesh mesh;
+        got.figure = 0;
+        cr_assert_eq(ves_figure_mesh(figure, true, &mesh), VES_OK);
+        for (int k = 0; k < mesh.vertices; k++) got.figure = fmax(got.figure, mesh.point[3 * k + 2]);
+        ves_figure_destroy(figure);
+    }
+    if (ves_diag_count(diag)) ves_diag_text(diag, 0, got.said, sizeof got.said);
+    ves_diag_destroy(diag);
+    return got;
+}
+
+Test(plan, what_is_drawn_of_a_design_does_not_depend_on_the_one_before)
+{
+    const struct {
+        const char *text;
+        double r, z;
+        ves_status want;
+        double top; /* NAN: no figure */
+        bool scaled;
+        const char *says;
+    } table[] = {
+        {GROWN("scale: {equation: area == 100*r}\n"), 0.25, 1, VES_OUTSIDE, 1, false,
+         "warning: the shape is drawn, not scaled, although a number of the problem has left its range"},
+        {GROWN("scale: {equation: area == 9*z}\n"), 1, -1, VES_NO_SCALE, NAN, false,
+         "error: there is no shape to show: no size of the shape meets the scale equation"},
+        {GROWN("scale: {equation: area == 9*z}\n"), 1, 0, VES_NO_SCALE, NAN, false, "error: there is no"},
+        {GROWN("scale: {equation: width == 9}\nmeasures: {m: {max: {of: log(x - 99)}}}\nconstraints: [m <= "
+               "1]\n"),
+         1, 1, VES_NO_NUMBER, 4.5, true,
+         "warning: the shape is drawn although a measure is not a finite number"},
+        {GROWN(""), 0.25, 1, VES_OUTSIDE, 1, true, "warning: the shape is drawn although a number of"},
+        {GROWN("solve: {unknown: s, in: [1, 5], equation: area == s}\nscale: {equation: depth == s - 3*z}\n"),
+         1, 1, VES_NO_BRACKET, NAN, false, "error: there is no shape to show"}};
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        bed b = bed_make(table[k].text);
+        const double before[3] = {2, 0.6, 1.3};
+        for (int n = 0; n < 3; n++) {
+            reach_of(&b, before[n], 1);
+            reach got = reach_of(&b, table[k].r, table[k].z);
+            bool drawn = !isnan(table[k].top);
+            cr_expect_eq(got.status, table[k].want, "case %zu: %s", k, ves_status_text(got.status));
+            cr_expect_eq(isnan(got.similarity), !table[k].scaled, "case %zu: %g", k, got.similarity);
+            cr_expect_eq(isnan(got.figure), !drawn, "case %zu: %g", k, got.figure);
+            cr_expect(strstr(got.said, table[k].says) != NULL, "case %zu: %s", k, got.said);
+            /* the top lies at u = 1, and a width is climbed to 1e-13 of its size */
+            cr_expect(!drawn || fabs(got.figure - table[k].top) < 1e-12, "case %zu after %g: %.15g high", k,
+                      before[n], got.figure);
+            cr_expect(!drawn || (got.point == got.figure && got.spine == got.figure),
+                      "case %zu: %.15g, %.15g", k, got.point, got.spine);
+        }
+        bed_clear(&b);
+    }
+}

@@ -77,7 +77,7 @@ typedef struct ves_design {
     const ves_sides *side; /* [constraints] */
     double objective;      /* NAN: the file has none, or status is not VES_OK */
     double violation;      /* the largest of the constraints, 0 without any; NAN: status is not VES_OK */
-    double similarity;     /* the factor of scale:, 1 without */
+    double similarity;     /* the factor of scale:, 1 without; NAN: it failed before that was known */
     bool feasible;         /* VES_OK, and every constraint holds */
 } ves_design;
 
@@ -118,19 +118,21 @@ typedef struct ves_patch_facts {
 ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch);
 
 /* Exact values at scattered points (u[k], v[k]) of one patch, 0 <= u <= 1, of the design last evaluated:
- * out[(f * 3 + c) * count + k], f in the order X Xu Xv Xuu Xuv Xvv, c = x, y, z. VES_MEMORY; VES_RANGE: no
- * such patch. */
+ * out[(f * 3 + c) * count + k], f in the order X Xu Xv Xuu Xuv Xvv, c = x, y, z. In the size that `scale:`
+ * gives it; not scaled where it failed before that was known (ves_design.similarity). VES_MEMORY; VES_RANGE:
+ * no such patch. */
 ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u, const double *v,
                            double *out);
 
-/* The spine of a PDE patch and its first two derivatives, of the design last evaluated: out[(d * 3 + c) *
+/* The spine of a PDE patch and its first two derivatives, of the design last evaluated, as above: out[(d * 3 + c) *
  * count + k]. VES_ABSENT: that patch has none; VES_MEMORY; VES_RANGE: no such patch. */
 ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u, double *out);
 
 /* The shape at x on nu x nv cells a patch (1 to 10000 and 3 to 10000, 2e7 in all; 0: chosen), for files,
  * pictures and meshes. Owned by the caller. A design that fails is drawn all the same, with a warning in diag,
  * as long as it has a shape: a positive status says that it has none (VES_NO_ROOT, VES_NO_BRACKET,
- * VES_NO_POINT) and *figure is NULL, as after VES_RANGE and VES_MEMORY. */
+ * VES_NO_SCALE, VES_NO_POINT) and *figure is NULL, as after VES_RANGE and VES_MEMORY. One that failed before
+ * the factor of `scale:` was known is drawn in the size of its curves; the warning then says "not scaled". */
 ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_figure **figure,
                            ves_diag *diag);
 

@@ -103,9 +103,12 @@ static int bound(app *a, app_shape *shape)
 {
     ves_design design;
     ves_status status = ves_plan_measure(shape->plan, shape->x, 0, &design);
-    if (status < VES_OK || status == VES_NO_ROOT || status == VES_NO_BRACKET)
+    if (status < VES_OK || status == VES_NO_ROOT || status == VES_NO_BRACKET || status == VES_NO_SCALE)
         return app_fail(a, status, "%s", ves_status_text(status));
-    ves_plan_why(shape->plan, status, "the design cannot be measured", a->diag);
+    ves_plan_why(shape->plan, status,
+                 isnan(design.similarity) ? "the design cannot be measured, and is not scaled"
+                                          : "the design cannot be measured",
+                 a->diag);
     return APP_DONE;
 }
 

@@ -13,6 +13,12 @@ static void parameters_bind(ves_plan *plan)
                 ves_formula_eval(p->parameter[k].formula, plan->block, NULL, plan->formula_room);
 }
 
+void ves_plan_unscale(ves_plan *plan)
+{
+    plan->similarity = 1;
+    plan->scaled = !plan->problem->scale;
+}
+
 void ves_plan_bind(ves_plan *plan, const double *x, double unknown)
 {
     const ves_problem *p = plan->problem;
@@ -24,6 +30,7 @@ void ves_plan_bind(ves_plan *plan, const double *x, double unknown)
             plan->block[p->slots + k] = ves_formula_eval(p->number[k], plan->block, NULL, plan->formula_room);
     ves_curves_bind(plan->curves, plan->block);
     ves_plan_bind_patches(plan);
+    ves_plan_unscale(plan); /* or a design that fails early would be drawn in the size of the one before */
 }
 
 const ves_limit *ves_plan_limit(const ves_plan *plan)

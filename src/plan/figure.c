@@ -343,7 +343,8 @@ ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_
             CELLS_MOST, CELLS_MOST, ALL_MOST, nu, nv, plan->problem->patches,
             plan->problem->patches == 1 ? "" : "es");
     ves_status status = ves_plan_forward(plan, x, 0, PROGRAM_JUDGE, false);
-    bool drawn = status >= VES_OK && status != VES_NO_ROOT && status != VES_NO_BRACKET;
+    bool drawn =
+        status >= VES_OK && status != VES_NO_ROOT && status != VES_NO_BRACKET && status != VES_NO_SCALE;
     ves_status wrong = drawn ? status : VES_OK;
     if (drawn) status = ves_plan_figure_make(plan, nu, nv, figure);
     if (*figure && !ves_plan_figure_finite(plan, *figure, "there is no shape to show", diag)) {
@@ -352,8 +353,8 @@ ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_
         return VES_NO_POINT;
     }
     if (wrong != VES_OK && *figure)
-        ves_diag_add(diag, VES_WARNING, wrong, (ves_mark){0}, "the shape is drawn although %s",
-                     ves_status_text(wrong));
+        ves_diag_add(diag, VES_WARNING, wrong, (ves_mark){0}, "the shape is drawn%s although %s",
+                     plan->scaled ? "" : ", not scaled,", ves_status_text(wrong));
     if (status == VES_OK) return VES_OK;
     return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "there is no shape to show: %s",
                         ves_status_text(status));

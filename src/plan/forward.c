@@ -20,7 +20,7 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
         ves_status status =
             p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]);
         /* a plugin's own word for "cannot be measured"; only the plan cuts */
-        if (status > VES_NO_POINT || status == VES_CUT) status = VES_NO_NUMBER;
+        if (status >= VES_NO_SCALE || status == VES_CUT) status = VES_NO_NUMBER;
         if (status == VES_OK && !isfinite(plan->value[m])) status = VES_NO_NUMBER;
         if (status == VES_NO_NUMBER) plan->numberless = m;
         VES_TRY(status);
@@ -46,14 +46,13 @@ double ves_plan_formula(ves_plan *plan, const ves_formula *formula)
 static ves_status scale(ves_plan *plan, int index, bool gradient)
 {
     const ves_scale *sc = plan->problem->scale;
-    plan->similarity = 1;
     if (!sc) return VES_OK;
     VES_TRY(sample(plan, index, PROGRAM_SCALE, gradient));
     VES_TRY(measure(plan, index, PROGRAM_SCALE));
     double ratio = ves_plan_formula(plan, sc->target) / plan->value[sc->measure];
     double s = pow(ratio, 1. / plan->problem->measure[sc->measure].measure->degree);
-    if (!(ratio > 0) || !isfinite(s)) return VES_NO_ROOT;
-    plan->similarity = s;
+    if (!(ratio > 0) || !isfinite(s)) return VES_NO_SCALE;
+    plan->similarity = s, plan->scaled = true;
     return VES_OK;
 }
 
@@ -144,7 +143,9 @@ static ves_status solve(ves_plan *plan, const double *x, int index, double *root
 ves_status ves_plan_forward(ves_plan *plan, const double *x, int index, plan_program which, bool gradient)
 {
     double unknown = 0;
-    if (plan->problem->solve) VES_TRY(solve(plan, x, index, &unknown));
+    ves_status status = plan->problem->solve ? solve(plan, x, index, &unknown) : VES_OK;
+    if (status != VES_OK) ves_plan_unscale(plan); /* the size was that of a trial */
+    VES_TRY(status);
     ves_plan_bind(plan, x, unknown);
     return ves_plan_run(plan, index, which, gradient);
 }

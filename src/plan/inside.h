@@ -104,7 +104,8 @@ struct ves_plan {
     bool any_dear;  /* some judged measure is dear */
     double cutoff;  /* of the question at hand */
     int numberless; /* the measure that gave no number in the last program, or -1 */
-    double similarity;
+    double similarity; /* of the design that is bound */
+    bool scaled;       /* that is known: found, or there is no scale: */
     double *formula_room;
     double *measure_adjoint;
     double *rows;           /* gradients: [1 + constraints + 1][slots] before the equations are followed */
@@ -138,9 +139,10 @@ ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gr
 double ves_site_scatter(ves_plan *plan, plan_site *s); /* returns d J / d similarity, leaves adjoints 0 */
 void ves_site_gather(ves_plan *plan, plan_site *s);
 
-/* bind.c: x -> block -> curves -> patches, and back */
+/* bind.c: x -> block -> curves -> patches, and back. What is bound has no similarity yet. */
 void ves_plan_bind(ves_plan *plan, const double *x, double unknown);
 void ves_plan_bind_patches(ves_plan *plan);
+void ves_plan_unscale(ves_plan *plan);
 const ves_limit *ves_plan_limit(const ves_plan *plan); /* the first that is not kept, or NULL */
 void ves_plan_pull(ves_plan *plan, const double *number_adjoint, double *slot_row);
 

@@ -183,7 +183,6 @@ static void tell(ves_plan *plan, ves_design *design)
 {
     const ves_problem *p = plan->problem;
     memcpy(plan->told, plan->value, sizeof(double) * (size_t)p->measures);
-    design->similarity = plan->similarity;
     design->violation = 0;
     design->feasible = true;
     for (int k = 0; k < p->constraints; k++) {
@@ -215,7 +214,7 @@ ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_desi
                            .side = plan->sides,
                            .objective = NAN,
                            .violation = NAN,
-                           .similarity = NAN};
+                           .similarity = plan->scaled ? plan->similarity : NAN};
     for (int m = 0; m < p->measures; m++) plan->told[m] = NAN;
     for (int k = 0; k < p->constraints; k++) plan->sides[k] = (ves_sides){NAN, NAN, NAN, false};
     if (status == VES_OK) tell(plan, design);

@@ -206,7 +206,7 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     const ves_problem *p = plan->problem;
     VES_TRY(places_check(p, diag));
     VES_TRY(memory_take(plan));
-    plan->similarity = 1;
+    ves_plan_unscale(plan);
     double *middle = ves_arena_take(&plan->arena, (size_t)p->block, sizeof *middle);
     if (!middle) return VES_MEMORY;
     block_fill(plan, false, plan->block);

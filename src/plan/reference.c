@@ -31,7 +31,6 @@ static void place(ves_plan *plan, int t)
 {
     double unknown = draw(plan->problem, t, plan->reference);
     ves_plan_bind(plan, plan->reference, unknown);
-    plan->similarity = 1;
 }
 
 /* Turns the plan outward at the design that is bound and measures that. With solve: the guess only gives the

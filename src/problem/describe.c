@@ -220,6 +220,9 @@ const char *ves_describe_status(ves_status status)
         return "Both ends of the interval `in` of `solve` lie on one side of its equation. Widen it, or "
                "narrow the "
                "ranges of the\n      variables. Or the equation jumps over 0, as 1/(area - 2) or sign() do.";
+    case VES_NO_SCALE:
+        return "The measure or the formula of `scale` is 0, infinite, or they have different signs. Narrow "
+               "the ranges of the\n      variables.";
     case VES_NO_BRACKET:
         return "At `in` of `solve`, and up to 1 % inside it, the shape fails. Give ends where it can be "
                "measured,\n      or narrow the ranges of the variables.";
