@@ -44,12 +44,14 @@ static int resolving(const ves_plan *plan)
 }
 
 /* Refines one direction until two refinements in a row change nothing: one alone may be fooled by symmetry.
- * left: the last change on the grid chosen. */
+ * Where something still changes beyond the last grid that may be chosen, that one is. left: the largest change
+ * seen from the grid chosen. */
 static ves_status refine(const ves_plan *plan, const double *x, int d, int grid[2], double *left,
                          double *value)
 {
     const ves_problem *problem = plan->problem;
-    int count = problem->measures, most = d ? V_MOST : U_MOST, trial[2] = {grid[0], grid[1]}, calm = 0;
+    int count = problem->measures, most = d ? V_MOST : U_MOST, trial[2] = {grid[0], grid[1]}, calm = 0,
+        largest = grid[d];
     double *next = value + count;
     *left = 0;
     VES_TRY(measures_on(problem, x, trial, value));
@@ -58,11 +60,12 @@ static ves_status refine(const ves_plan *plan, const double *x, int d, int grid[
         trial[d] = finer;
         VES_TRY(measures_on(problem, x, trial, next));
         double change = change_between(plan, value, next);
-        if (!calm) *left = change;
+        *left = calm ? fmax(*left, change) : change;
         calm = change <= ENOUGH ? calm + 1 : 0;
+        if (finer <= most) largest = finer;
         if (calm) continue;
+        grid[d] = largest;
         if (finer > most) return VES_OK;
-        grid[d] = finer;
         for (int k = 0; k < count; k++) value[k] = next[k];
     }
     return VES_OK;
