@@ -301,6 +301,24 @@ Test(verdicts, a_proof_compares_violations_in_units_of_their_sizes)
     }
 }
 
+/* A search asks for proofs without a cutoff, others may give one. */
+Test(verdicts, a_proof_that_is_cut_short_tells_the_violation)
+{
+    bed b = bed_make(CONE("variables: {r: [0.3, 1, 2]}\nquadrature: {u: 16, v: 16}\n",
+                          "minimize: area\nconstraints: [area <= 1]\n"),
+                     NULL);
+    double x = 1, arrays[24], want = judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays).violation;
+    unsigned ask[] = {VES_WANT_VALUE, VES_WANT_PROOF, VES_WANT_PROOF | VES_WANT_GRADIENT};
+    for (int k = 0; k < 3; k++) {
+        ves_verdict verdict = judged(&b, &x, ask[k], 0.5, arrays);
+        cr_expect_eq(verdict.status, VES_CUT);
+        /* what 16 nodes leave of an area that 8 would do for */
+        cr_expect(isnan(verdict.value) && want > 7 && fabs(verdict.violation - want) < 1e-11 * want,
+                  "case %d: %g, %.15g", k, verdict.value, verdict.violation);
+    }
+    bed_clear(&b);
+}
+
 Test(verdicts, no_number_anywhere_is_noticed)
 {
     bed b = bed_make("vesica: 1\nvariables: {b: [-1, -0.5, 1]}\nquadrature: {u: 16, v: 16}\n"

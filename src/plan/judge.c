@@ -144,7 +144,9 @@ static ves_status prove(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict
     ves_ask only = *ask;
     ves_verdict fine = {.status = VES_OK};
     only.want &= ~(unsigned)(VES_WANT_PROOF | VES_WANT_GRADIENT);
-    VES_TRY(judge(plan, &only, 1, &fine));
+    ves_status status = judge(plan, &only, 1, &fine);
+    verdict->value = fine.value, verdict->violation = fine.violation; /* where it ends here: CUT, a fold */
+    VES_TRY(status);
     memcpy(plan->fine, plan->value, sizeof(double) * (size_t)plan->problem->measures);
     violations(plan, plan->fine_violation);
     if (plan->problem->validity.self_intersection) VES_TRY(ves_plan_crosses(plan));
