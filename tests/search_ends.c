@@ -191,6 +191,85 @@ Test(ends, a_faint_saddle_is_left_all_the_same)
     ves_search_result_destroy(r);
 }
 
+/* ---- kinks ---- */
+
+/* The largest of three |.|, convex, or, to compare, the sum of their squares, which is smooth. */
+static ves_status ridge(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)worker;
+    const double row[3][3] = {{1, -2, 0}, {3, 1, 0}, {0.01, 0.01, 0.01}}, *x = ask->x;
+    bool smooth = *(bool *)data;
+    double *g = gradient_of(ask, v), part[3];
+    int most = 0;
+    v->value = 0;
+    for (int k = 0; k < 3; k++) {
+        part[k] = row[k][0] * x[0] + row[k][1] * x[1] + row[k][2] * x[2] - (k == 1);
+        v->value = smooth ? v->value + part[k] * part[k] : fmax(v->value, fabs(part[k]));
+        if (fabs(part[k]) > fabs(part[most])) most = k;
+    }
+    for (int i = 0; g && i < 3; i++) g[i] = part[most] > 0 ? row[most][i] : -row[most][i];
+    for (int i = 0; g && smooth && i < 3; i++)
+        g[i] = 2 * (part[0] * row[0][i] + part[1] * row[1][i] + part[2] * row[2][i]);
+    return VES_OK;
+}
+
+Test(ends, kinks_are_told_and_are_no_list_of_optima)
+{
+    for (int k = 0; k < 2; k++) {
+        bool smooth = k;
+        given g = {.evaluate = ridge,
+                   .n = 3,
+                   .lower = {-3, -3, 0.5},
+                   .upper = {3, 3, 2},
+                   .start = {2, -1, 1},
+                   .gradients = true,
+                   .data = &smooth};
+        ves_search_options o = ves_search_options_default();
+        for (o.seed = 1; o.seed <= 5; o.seed++) {
+            ves_search_result *r;
+            cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+            cr_expect(r->feasible && r->optima == 1, "smooth %d: %d optima", k, r->optima);
+            bool told = noted(r, "slope has not vanished"), converged = strstr(r->stop, "converged");
+            cr_expect(told != smooth, "smooth %d: %s", k, r->notes ? r->note[0] : "no note");
+            cr_expect(converged == smooth, "smooth %d: %s", k, r->stop);
+            ves_search_result_destroy(r);
+        }
+    }
+}
+
+/* A polish that begins at its end, with hardly a slope, has converged all the same, be the objective 0 there or
+ * far from 0. */
+static ves_status bowl(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    (void)worker;
+    double x = ask->x[0] - 0.3, y = ask->x[1] - sqrt(0.5), *g = gradient_of(ask, v);
+    v->value = *(double *)data + x * x + 100 * y * y + x * x * y;
+    if (g) g[0] = 2 * x + 2 * x * y, g[1] = 200 * y + x * x;
+    return VES_OK;
+}
+
+Test(ends, a_polish_that_begins_at_its_end_is_at_no_kink)
+{
+    double offset[] = {0, 1e-9, 1, 1e6};
+    const double apart[] = {0, 1e-10, 1e-7, 1e-4};
+    for (int k = 0; k < 16; k++) {
+        double off = apart[k / 4];
+        given g = {.evaluate = bowl,
+                   .n = 2,
+                   .lower = {-1, -1},
+                   .upper = {1, 2},
+                   .start = {0.3 + off, sqrt(0.5) - off},
+                   .gradients = true,
+                   .data = &offset[k % 4]};
+        ves_search_options o = only_polish("slsqp");
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(noted(r, "slope") == NULL, "offset %g, apart %g: %s", offset[k % 4], off,
+                  noted(r, "slope"));
+        ves_search_result_destroy(r);
+    }
+}
+
 /* ---- nothing is lost ---- */
 
 /* A saddle at 0; what lies lower does not pass its proof. */

@@ -133,7 +133,8 @@ typedef struct ves_search_hooks {
 } ves_search_hooks;
 
 /* A distinct feasible end of the search: within 1e-3 of the ranges (variables that the objective does not
- * feel left out) of no better one, nor the `same` as one. */
+ * feel left out) of no better one, nor the `same` as one. With gradients an end where the slope has not vanished,
+ * as at a kink, is one only as the best of all. */
 typedef struct ves_optimum {
     const double *x;
     double value, violation; /* of a verdict; in a run those of a design */

@@ -82,7 +82,8 @@ static long spare(const ves_session *session)
     return session->budget - session->evaluations;
 }
 
-/* Puts one end into the cluster that it belongs to, or into a new one when it is feasible and proved. */
+/* Puts one end into the cluster that it belongs to, or into a new one when it is feasible, proved and an end by
+ * its slope. */
 static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_point *point)
 {
     ves_session *session = asker->session;
@@ -96,6 +97,7 @@ static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_
             c->first[k].saddle = true;
         return VES_OK;
     }
+    if (end->stalled) return VES_OK;
     ves_proof proof;
     ves_asker_flush(asker); /* the proof is told after what led to it, with any number of workers */
     if (ves_session_over(session)) {

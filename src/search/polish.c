@@ -89,7 +89,7 @@ static ves_status advance(task *t)
     ves_session *session = t->descent.session;
     int at = t->ends++, from = --t->waiting, above = t->above[from];
     ves_end *end = &t->end[at];
-    end->saddle = end->pass = false;
+    end->saddle = end->pass = end->stalled = false;
     ves_status status = ves_descent_run(&t->descent, &t->wait[from], &end->point);
     if (above >= 0 && lower(t, &end->point.verdict, &t->end[above].point.verdict)) t->end[above].pass = true;
     VES_TRY(status);
@@ -97,6 +97,8 @@ static ves_status advance(task *t)
     if (!t->checks || t->descent.budget - t->descent.used < cost) return VES_OK;
     VES_TRY(ves_saddle_check(&t->saddle, &t->descent, &end->point, &end->saddle));
     if (t->saddle.edge >= 0) note_edge(t);
+    end->stalled =
+        t->saddle.stalled && !t->descent.beside && end->point.verdict.violation <= session->tolerance;
     return end->saddle && t->escapes < ESCAPES ? leave(t, at) : VES_OK;
 }
 
@@ -175,11 +177,28 @@ static void note_edges(polish *p)
         first->running ? ", and the value runs into that edge: the optimum may lie beyond it" : "");
 }
 
-static const ves_point *best_end(const ves_session *session, const task *t)
+static void note_stalls(polish *p)
 {
-    const ves_point *best = &t->end[0].point;
+    int met = 0;
+    for (int k = 0; k < p->tasks; k++) {
+        bool stalled = false;
+        for (int e = 0; e < p->task[k].ends; e++) stalled = stalled || p->task[k].end[e].stalled;
+        met += stalled;
+    }
+    if (!met) return;
+    ves_session_note(
+        p->session,
+        "%d of %d polish%s stopped where the slope has not vanished, as at a jump or at the kinks of "
+        "max, min and abs: no such end is listed but for the best; a further polish by sbplx or cobyla "
+        "needs no slopes and may find a better one",
+        met, p->tasks, p->tasks == 1 ? "" : "es");
+}
+
+static const ves_end *best_end(const ves_session *session, const task *t)
+{
+    const ves_end *best = &t->end[0];
     for (int e = 1; e < t->ends; e++)
-        if (ves_session_better(session, &t->end[e].point.verdict, &best->verdict)) best = &t->end[e].point;
+        if (ves_session_better(session, &t->end[e].point.verdict, &best->point.verdict)) best = &t->end[e];
     return best;
 }
 
@@ -213,14 +232,19 @@ static void tell_stop(polish *p, const ves_polish *options)
 {
     ves_session *session = p->session;
     const task *best = &p->task[0];
+    const ves_end *end = best_end(session, best);
     for (int k = 1; k < p->tasks; k++) {
-        const task *t = &p->task[k];
-        const ves_verdict *verdict = &best_end(session, t)->verdict;
-        if (ves_session_better(session, verdict, &best_end(session, best)->verdict)) best = t;
+        const ves_end *other = best_end(session, &p->task[k]);
+        if (!ves_session_better(session, &other->point.verdict, &end->point.verdict)) continue;
+        best = &p->task[k];
+        end = other;
     }
-    const ves_descent *descent = &best->descent;
-    ves_session_stop(session, ves_descent_spent(descent) ? VES_ENDED_BUDGET : VES_ENDED_DONE, "%s: %s",
-                     options->algorithm, ves_descent_sentence(descent));
+    bool spent = ves_descent_spent(&best->descent);
+    const char *sentence = end->stalled && !spent
+                               ? "no step leads on, but the slope has not vanished, as at a kink"
+                               : ves_descent_sentence(&best->descent);
+    ves_session_stop(session, spent ? VES_ENDED_BUDGET : VES_ENDED_DONE, "%s: %s", options->algorithm,
+                     sentence);
 }
 
 /* A saddle that was left is no end, once something better is proved: what lies lower may yet be refused. */
@@ -249,6 +273,7 @@ static ves_status collect(polish *p)
             ves_point_copy(&end[at].point, &p->task[k].end[e].point, session->n, session->m);
             end[at].saddle = p->task[k].end[e].saddle;
             end[at].pass = p->task[k].end[e].pass;
+            end[at].stalled = p->task[k].end[e].stalled;
         }
     ves_session_sort(session, end, count);
     for (int k = 0; k < count; k++) point[k] = &end[k].point;
@@ -320,6 +345,7 @@ ves_status ves_polish_run(ves_session *session, const ves_polish *options, long 
         tell_stop(&p, options);
         note_saddles(&p);
         note_edges(&p);
+        note_stalls(&p);
         status = note_mended(&p);
         if (status == VES_OK) status = collect(&p);
     }

@@ -20,6 +20,7 @@ static const double speck = 1e-10;     /* and of the objective: 10 roundings of 
 static const double sideways =
     1e-6;                         /* of a unit direction, across a wall or a constraint: it runs along it */
 static const double steep = 1e-3; /* of the slope at the start: no descent stops there of itself */
+static const double rise = 1e-4;  /* nor with a slope that makes this part of the objective across the box */
 
 bool ves_saddle_create(ves_saddle *s, ves_session *session)
 {
@@ -275,11 +276,26 @@ static bool runs(const ves_saddle *s, const ves_descent *d)
     return most > steep * d->first_scale;
 }
 
+/* Three scales of a slope, as each may be small of itself: a descent may start at its end, an objective may be 0,
+ * a step may be shorter than the descent cares for. Descents of smooth objectives ended below a thirtieth of the
+ * first and a fiftieth of the second; at kinks the slope was 400 and 200 times these. */
+static bool stalls(const ves_saddle *s, const ves_descent *d)
+{
+    double most = 0;
+    for (int k = 0; k < s->frees; k++) {
+        int i = s->free[k];
+        double room = s->slope[i] > 0 ? s->base[i] : 1 - s->base[i];
+        if (room > near_limit) most = fmax(most, fabs(s->slope[i]));
+    }
+    double size = fmax(fabs(s->lagrangian), d->session->spread);
+    return most > steep * d->first_scale && most > rise * size && most > d->options->x_tolerance * s->largest;
+}
+
 ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *point, bool *negative)
 {
     int n = d->session->n;
     long mended = d->mended;
-    *negative = s->running = false;
+    *negative = s->running = s->stalled = false;
     s->edge = -1;
     memcpy(s->base, point->u, (size_t)n * sizeof(double));
     VES_TRY(ves_descent_look(d, s->base, true));
@@ -299,7 +315,9 @@ ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *poin
     double noise = symmetrise(s->frees, s->hessian);
     project(s);
     ves_eigen_symmetric(s->frees, s->hessian, s->value, s->vector);
-    if (!judge(s, d, noise)) return VES_OK;
+    bool bent = judge(s, d, noise);
+    s->stalled = stalls(s, d);
+    if (!bent || s->stalled) return VES_OK;
     open_ways(s, d);
     *negative = s->way[0] || s->way[1];
     return VES_OK;

@@ -28,12 +28,13 @@ typedef struct ves_saddle {
     int edge; /* the variable along which there are designs that cannot be measured next to the point: then
                  it cannot be judged; -1: none */
     bool running; /* there the value still falls or rises: no minimum of its own */
+    bool stalled; /* away from any edge the slope has not vanished: no stationary point of a smooth value */
 } ves_saddle;
 
 bool ves_saddle_create(ves_saddle *saddle, ves_session *session);
 
-/* negative: there is a direction of negative curvature at the point, clear of the noise of the differences,
- * that some feasible way follows. */
+/* negative: the point is stationary, and there is a direction of negative curvature at it, clear of the noise of
+ * the differences, that some feasible way follows. */
 ves_status ves_saddle_check(ves_saddle *saddle, ves_descent *descent, const ves_point *point, bool *negative);
 
 /* Steps along it, both ways where both are open; [0] and [1] are lower than the saddle when found[k]. */

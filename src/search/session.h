@@ -25,7 +25,8 @@ typedef struct ves_session ves_session;
 typedef struct ves_end {
     ves_point point;
     bool saddle;
-    bool pass; /* a saddle, and a descent from it ended lower */
+    bool pass;    /* a saddle, and a descent from it ended lower */
+    bool stalled; /* at a slope that has not vanished: a kink, or no end at all */
 } ves_end;
 
 typedef struct ves_event {
