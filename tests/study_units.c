@@ -7,6 +7,7 @@
 #include <math.h>
 
 #include "files.h"
+#include "fonts.h"
 #include "vesica/run.h"
 
 #define PI 3.14159265358979323846
