@@ -201,6 +201,8 @@ static void read_pde(ves_reader *reader, const ves_named *name, const ves_fields
     patch->periodic = true;
 }
 
+enum { POINTS_MOST = 1000 }; /* of a side: splines through n points take n^2 numbers */
+
 /* All rows equally long, at least two of each. */
 static bool check_grid(ves_reader *reader, const ves_node *node, ves_patch_def *patch)
 {
@@ -209,6 +211,12 @@ static bool check_grid(ves_reader *reader, const ves_node *node, ves_patch_def *
     if (patch->rows < 2 || patch->columns < 2) {
         ves_reader_error(reader, VES_SYNTAX, node,
                          "\"points\" must be rows of points [[[x, y, z], ...], ...], at least two of each");
+        return false;
+    }
+    if (patch->rows > POINTS_MOST || patch->columns > POINTS_MOST) {
+        ves_reader_error(reader, VES_RANGE, node,
+                         "\"points\" must be at most %d rows of at most %d, got %d of %d", POINTS_MOST,
+                         POINTS_MOST, patch->rows, patch->columns);
         return false;
     }
     for (int k = 1; k < patch->rows; k++) {

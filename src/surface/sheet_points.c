@@ -3,7 +3,7 @@
 #include "surface/sheet.h"
 
 #include <math.h>
-#include <string.h>
+#include <stdlib.h>
 
 /* One direction: second derivatives at the knots are a matrix times the values (knots at 0, 1, 2 ...). */
 typedef struct spline {
@@ -21,53 +21,57 @@ typedef struct tables {
     double *u[3], *v[3]; /* [derivative][node][knot] */
 } tables;
 
-/* Dense elimination with partial pivoting; a becomes rubbish, b the solution. Spline systems are never
- * singular. */
-static void eliminate(int n, double *a, double *b)
+/* Second derivatives at the knots from values y there, spline by spline of the unit vectors y = e_c:
+ *     m_{k-1} + 4 m_k + m_{k+1} = 6 (y_{k-1} - 2 y_k + y_{k+1}). */
+static double right_side(int k, int c)
 {
-    for (int p = 0; p < n; p++) {
-        int best = p;
-        for (int r = p + 1; r < n; r++)
-            if (fabs(a[r * n + p]) > fabs(a[best * n + p])) best = r;
-        for (int c = 0; c < n && best != p; c++) {
-            double swap = a[p * n + c];
-            a[p * n + c] = a[best * n + c], a[best * n + c] = swap;
-            swap = b[p * n + c], b[p * n + c] = b[best * n + c], b[best * n + c] = swap;
-        }
-        for (int r = 0; r < n; r++) {
-            double f = r == p ? 0 : a[r * n + p] / a[p * n + p];
-            for (int c = 0; c < n && f != 0; c++)
-                a[r * n + c] -= f * a[p * n + c], b[r * n + c] -= f * b[p * n + c];
-        }
-    }
-    for (int p = 0; p < n; p++)
-        for (int c = 0; c < n; c++) b[p * n + c] /= a[p * n + p];
+    return abs(k - c) > 1 ? 0 : k == c ? -12 : 6;
 }
 
-/* m_{k-1} + 4 m_k + m_{k+1} = 6 (y_{k-1} - 2 y_k + y_{k+1}); not-a-knot ends: the third derivative goes on
- * through the second knot. Two knots make a line, three a parabola. */
+/* The right side is 6 times what [1 4 1] makes of y, less 36 y: m = 6 y - 36 G y, where the inverse of the cyclic
+ * [1 4 1] is G_j = (z^j + z^(n-j)) / ((1 - z^n) 2 sqrt(3)), z = sqrt(3) - 2. */
+static void closed_moments(spline *s)
+{
+    int n = s->knots;
+    double z = sqrt(3) - 2, scale = 36 / ((1 - pow(z, n)) * 2 * sqrt(3));
+    for (int k = 0; k < n; k++)
+        for (int c = 0; c < n; c++) {
+            int j = (k - c + n) % n;
+            s->moment[k * n + c] = (j ? 0 : 6) - scale * (pow(z, j) + pow(z, n - j));
+        }
+}
+
+/* Not-a-knot ends: the third derivative goes on through the second knot, m_0 - 2 m_1 + m_2 = 0, so that 6 m_1 is
+ * its right side; between m_1 and m_{n-2} Thomas's elimination. Two knots make a line, three a parabola. */
+static void open_moments(spline *s, double *up)
+{
+    int n = s->knots, last = n - 2;
+    for (int c = 0; c < n && n > 2; c++) {
+        double *m = s->moment + c; /* m_k at k * n */
+        m[n] = right_side(1, c) / 6;
+        m[last * n] = right_side(last, c) / 6;
+        up[1] = 0;
+        for (int k = 2; k < last; k++) {
+            double pivot = 4 - up[k - 1];
+            up[k] = 1 / pivot;
+            m[k * n] = (right_side(k, c) - m[(k - 1) * n]) / pivot;
+        }
+        for (int k = last - 1; k > 1; k--) m[k * n] -= up[k] * m[(k + 1) * n];
+        m[0] = n > 3 ? 2 * m[n] - m[2 * n] : m[n];
+        m[(n - 1) * n] = n > 3 ? 2 * m[last * n] - m[(last - 1) * n] : m[n];
+    }
+}
+
 static ves_status spline_create(int n, bool periodic, ves_arena *arena, spline *s)
 {
     *s = (spline){.knots = n, .periodic = periodic};
-    double *a = ves_arena_take(arena, (size_t)(n * n), sizeof *a);
-    s->moment = ves_arena_take(arena, (size_t)(n * n), sizeof(double));
-    if (!a || !s->moment) return VES_MEMORY;
-    double *b = s->moment;
-    for (int k = 0; k < n; k++) {
-        bool inner = periodic || (k > 0 && k < n - 1);
-        int before = (k + n - 1) % n, after = (k + 1) % n;
-        if (inner) {
-            a[k * n + before] += 1, a[k * n + k] += 4, a[k * n + after] += 1;
-            b[k * n + before] += 6, b[k * n + k] -= 12, b[k * n + after] += 6;
-        } else if (n < 4) {
-            a[k * n + k] = 1; /* a line; for three knots the parabola's constant second derivative */
-            if (n == 3) a[k * n + 1] = -1;
-        } else {
-            int in = k ? -1 : 1; /* m_0 - 2 m_1 + m_2 = 0 */
-            a[k * n + k] = 1, a[k * n + k + in] = -2, a[k * n + k + 2 * in] = 1;
-        }
-    }
-    eliminate(n, a, b);
+    double *room = ves_arena_doubles(arena, (size_t)n);
+    s->moment = ves_arena_doubles(arena, (size_t)n * (size_t)n);
+    if (!room || !s->moment) return VES_MEMORY;
+    if (periodic)
+        closed_moments(s);
+    else
+        open_moments(s, room);
     return VES_OK;
 }
 
