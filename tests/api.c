@@ -250,7 +250,8 @@ Test(api, a_plan_tells_its_grid_and_its_patches)
     cr_assert_eq(ves_plan_create(problem, &(ves_plan_options){{grid[0], 40}}, &same, NULL), VES_OK);
     cr_expect(isnan(ves_plan_grid(same, again)) && again[0] == grid[0] && again[1] == 40);
     ves_plan_destroy(same);
-    static const int wrong[][2] = {{-1, 8}, {8, -1}, {4097, 8}, {8, 1 << 30}};
+    static const int wrong[][2] = {{-1, 8}, {8, -1}, {4097, 8},    {8, 1 << 30},
+                                   {4, 8},  {8, 4},  {4096, 4096}, {0, 65536}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++)
         cr_expect_eq(ves_plan_create(problem, &(ves_plan_options){{wrong[k][0], wrong[k][1]}}, &same, NULL),
                      VES_RANGE);

@@ -24,7 +24,9 @@ extern "C" {
 typedef struct ves_plan ves_plan;
 
 typedef struct ves_plan_options {
-    int quadrature[2]; /* nodes along u and v, to 4096; 0: as the problem says; when that is `auto`: chosen */
+    /* nodes along u, 5 to 4096, and along v, 5 to 65536, of each patch; 0: as the problem says; when that is
+     * `auto`: chosen. u times v is at most 262144 by the number of patches, or 64 * 264, whichever is more. */
+    int quadrature[2];
 } ves_plan_options;
 
 /* options NULL: as the problem says. Choosing a grid takes about as long as a hundred evaluations: give other

@@ -127,6 +127,10 @@ struct ves_plan {
     double *shape[2], *planes; /* pose.c: points of two shapes that are compared */
 };
 
+/* plan.c: on a grid that is given, in range or not. */
+ves_status ves_plan_make(const ves_problem *problem, const int quadrature[2], ves_plan **plan,
+                         ves_diag *diag);
+
 /* level.c. face: its sites take the sides of their patches. */
 ves_status ves_plan_level_build(ves_plan *plan, int index);
 void ves_plan_level_face(ves_plan *plan, int index);

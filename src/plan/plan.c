@@ -201,7 +201,7 @@ static ves_status places_check(const ves_problem *p, ves_diag *diag)
     return VES_OK;
 }
 
-static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_diag *diag)
+static ves_status build(ves_plan *plan, const int quadrature[2], ves_diag *diag)
 {
     const ves_problem *p = plan->problem;
     VES_TRY(places_check(p, diag));
@@ -220,7 +220,7 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     VES_TRY(runs_make(plan));
     VES_TRY(ves_plan_pose(plan));
     for (int k = 0; k < LEVELS; k++) {
-        for (int d = 0; d < 2; d++) plan->level[k].quadrature[d] = options->quadrature[d] << k;
+        for (int d = 0; d < 2; d++) plan->level[k].quadrature[d] = quadrature[d] << k;
         VES_TRY(ves_plan_level_build(plan, k));
     }
     VES_TRY(ves_plan_refer(plan, diag));
@@ -232,35 +232,14 @@ static ves_status build(ves_plan *plan, const ves_plan_options *options, ves_dia
     return VES_OK;
 }
 
-enum { NODES_MOST = 4096 }; /* as the reader has it for `quadrature` */
-
-/* The grid: what the options say, else the problem, else what is chosen. */
-static ves_status grid_settle(const ves_problem *problem, ves_plan_options *options, double *change)
+ves_status ves_plan_make(const ves_problem *problem, const int quadrature[2], ves_plan **out, ves_diag *diag)
 {
-    int chosen[2], *q = options->quadrature;
-    *change = NAN;
-    for (int d = 0; d < 2; d++)
-        if (q[d] <= 0) q[d] = problem->quadrature[d];
-    if (q[0] > 0 && q[1] > 0) return VES_OK;
-    ves_status status = ves_plan_choose(problem, NULL, chosen, change); /* it tries many plans: */
-    for (int d = 0; d < 2; d++)
-        if (q[d] <= 0) q[d] = chosen[d];
-    return status == VES_MEMORY ? status : VES_OK; /* the one that is used will speak */
-}
-
-ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *options, ves_plan **out,
-                           ves_diag *diag)
-{
-    ves_plan_options chosen = options ? *options : (ves_plan_options){{0, 0}};
     int before = ves_diag_errors(diag);
     ves_plan *plan = ves_memory_take(sizeof *plan);
     ves_status status = plan ? VES_OK : VES_MEMORY;
     *out = NULL;
-    if (plan) plan->problem = problem;
-    for (int d = 0; d < 2; d++)
-        if (chosen.quadrature[d] < 0 || chosen.quadrature[d] > NODES_MOST) status = VES_RANGE;
-    if (status == VES_OK) status = grid_settle(problem, &chosen, &plan->change);
-    if (status == VES_OK) status = build(plan, &chosen, diag);
+    if (plan) plan->problem = problem, plan->change = NAN;
+    if (status == VES_OK) status = build(plan, quadrature, diag);
     if (status == VES_OK) {
         *out = plan;
         return VES_OK;
@@ -268,6 +247,51 @@ ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *o
     if (ves_diag_errors(diag) == before) ves_diag_fail(diag, status);
     ves_plan_destroy(plan);
     return status;
+}
+
+static bool in_range(int count, int most)
+{
+    return count == 0 || (count >= VES_NODES_LEAST && count <= most);
+}
+
+static bool is_grid(const ves_problem *problem, const int q[2])
+{
+    return in_range(q[0], VES_NODES_U) && in_range(q[1], VES_NODES_V) &&
+           (double)q[0] * q[1] <= ves_nodes_most(problem->patches);
+}
+
+static ves_status refuse(const ves_problem *problem, const int q[2], ves_diag *diag)
+{
+    return ves_diag_add(
+        diag, VES_ERROR, VES_RANGE, (ves_mark){0},
+        "a plan has %d to %d nodes along u, %d to %d along v, 0: chosen, and u times v at most %d on "
+        "every patch (%d in all): %d x %d are not possible",
+        VES_NODES_LEAST, VES_NODES_U, VES_NODES_LEAST, VES_NODES_V, ves_nodes_most(problem->patches),
+        problem->patches, q[0], q[1]);
+}
+
+/* The grid: what the options say, else the problem, else what is chosen. */
+ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *options, ves_plan **out,
+                           ves_diag *diag)
+{
+    int q[2] = {0, 0}, chosen[2];
+    double change = NAN;
+    *out = NULL;
+    if (options) memcpy(q, options->quadrature, sizeof q);
+    if (!is_grid(problem, q)) return refuse(problem, q, diag);
+    for (int d = 0; d < 2; d++)
+        if (q[d] == 0) q[d] = problem->quadrature[d];
+    if (q[0] == 0 || q[1] == 0) {
+        /* it makes many plans; of what fails, but for memory, the one that is used will speak */
+        if (ves_plan_choose(problem, NULL, chosen, &change) == VES_MEMORY)
+            return ves_diag_fail(diag, VES_MEMORY);
+        for (int d = 0; d < 2; d++)
+            if (q[d] == 0) q[d] = chosen[d];
+    }
+    if (!is_grid(problem, q)) return refuse(problem, q, diag);
+    VES_TRY(ves_plan_make(problem, q, out, diag));
+    (*out)->change = change;
+    return VES_OK;
 }
 
 void ves_plan_destroy(ves_plan *plan)

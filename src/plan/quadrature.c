@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { U_LEAST = 16, U_MOST = 64, V_LEAST = 16, V_MOST = 264 };
+enum { U_LEAST = 16, U_MOST = VES_CHOSEN_U, V_LEAST = 16, V_MOST = VES_CHOSEN_V };
 
 static const double ENOUGH = 1e-9;
 
@@ -17,7 +17,7 @@ static int rounded(int n)
 static ves_status measures_on(const ves_problem *problem, const double *x, const int grid[2], double *value)
 {
     ves_plan *plan;
-    VES_TRY(ves_plan_create(problem, &(ves_plan_options){.quadrature = {grid[0], grid[1]}}, &plan, NULL));
+    VES_TRY(ves_plan_make(problem, grid, &plan, NULL));
     ves_status status = ves_plan_measure_all(plan, x, 0);
     for (int m = 0; m < problem->measures; m++) value[m] = plan->value[m];
     ves_plan_destroy(plan);
@@ -79,12 +79,11 @@ ves_status ves_plan_choose(const ves_problem *problem, const double *at, int qua
     ves_plan *plan = NULL;
     int grid[2] = {U_LEAST, 2 * V_LEAST};
     ves_status status = value && x ? VES_OK : VES_MEMORY;
-    if (status == VES_OK)
-        status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, NULL);
+    if (status == VES_OK) status = ves_plan_make(problem, grid, &plan, NULL);
     if (status == VES_OK) grid[1] = resolving(plan);
     if (status == VES_OK && grid[1] > 2 * V_LEAST) { /* the search for a design must see the modes too */
         ves_plan_destroy(plan);
-        status = ves_plan_create(problem, &(ves_plan_options){{grid[0], grid[1]}}, &plan, NULL);
+        status = ves_plan_make(problem, grid, &plan, NULL);
     }
     bool there = status == VES_OK && at && ves_plan_measure_all(plan, at, 0) == VES_OK;
     if (status == VES_OK && !there) status = plan->measured;

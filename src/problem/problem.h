@@ -17,6 +17,18 @@
 #include "vesica/problem.h"
 #include "vesica/search.h"
 
+/* Grids: nodes along u and v (fewer could not tell a surface that is round from one that folds back: between
+ * neighbours its normal would turn by more than 120 degrees), and what may be chosen of them at most. */
+enum { VES_NODES_LEAST = 5, VES_NODES_U = 4096, VES_NODES_V = 65536, VES_CHOSEN_U = 64, VES_CHOSEN_V = 264 };
+
+/* Nodes of one of so many patches at most: 2^18 in all, so that both levels of a plan stay below 1 GB; but what
+ * may be chosen is never too much. */
+static inline int ves_nodes_most(int patches)
+{
+    int share = (1 << 18) / (patches > 0 ? patches : 1), chosen = VES_CHOSEN_U * VES_CHOSEN_V;
+    return share > chosen ? share : chosen;
+}
+
 /* How the file writes a quantity, for people: value / factor in `unit`; "" and 1 without a unit. */
 typedef struct ves_shown {
     char unit[VES_UNIT_TEXT];

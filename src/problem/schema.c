@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "problem/problem.h"
+
 #define END                                                                                                  \
     {                                                                                                        \
         .key = {.name = NULL }                                                                               \
@@ -156,8 +158,8 @@ static const ves_entry validity_keys[] = {
     END};
 
 static const ves_entry quadrature_keys[] = {
-    {{"u", VES_COUNT, .min = 0, .max = 4096, .about = "Gauss nodes across a patch; 0: chosen"}, "u: 16", NULL},
-    {{"v", VES_COUNT, .min = 0, .max = 65536, .about = "nodes around a patch; 0: chosen"}, "v: 32", NULL},
+    {{"u", VES_COUNT, .min = 0, .max = VES_NODES_U, .about = "Gauss nodes across a patch, 5 at least; 0: chosen"}, "u: 16", NULL},
+    {{"v", VES_COUNT, .min = 0, .max = VES_NODES_V, .about = "nodes around a patch, 5 at least; 0: chosen"}, "v: 32", NULL},
     END};
 
 static const ves_entry anneal_keys[] = {

@@ -77,15 +77,37 @@ void ves_reader_validity(ves_reader *reader, const ves_node *node)
     if (monotone) read_monotone(reader, monotone, ves_schema_find(table, "monotone")->table, validity);
 }
 
+/* Where one number is left to be chosen, with the most that may be. */
+static void nodes_check(ves_reader *reader, const ves_node *node)
+{
+    const int *q = reader->problem->quadrature, patches = reader->problem->patches;
+    int u = q[0] ? q[0] : VES_CHOSEN_U, v = q[1] ? q[1] : VES_CHOSEN_V, most = ves_nodes_most(patches);
+    if ((!q[0] && !q[1]) || (double)u * v <= most) return;
+    ves_reader_error(
+        reader, VES_RANGE, node,
+        "%d x %d nodes on every patch (%d in all) take too much memory: give at most %d, u times v%s", u, v,
+        patches, most,
+        q[0] && q[1] ? ""
+        : q[0]       ? "; up to 264 along v may be chosen"
+                     : "; up to 64 along u may be chosen");
+}
+
 void ves_reader_quadrature(ves_reader *reader, const ves_node *node)
 {
     const ves_entry *table = ves_schema_find(ves_schema_root.table, "quadrature")->table;
     static const char *const name[2] = {"u", "v"};
     ves_fields f;
+    int before = reader->errors;
     if (!node || (node->kind == VES_NODE_WORD && !strcmp(node->text, "auto"))) return;
     if (!ves_fields_read(reader, node, table, "quadrature", &f)) return;
     for (int k = 0; k < 2; k++) {
         const ves_field *x = field(&f, name[k]);
-        if (x->node) reader->problem->quadrature[k] = (int)ves_reader_count(reader, x->node, x->key);
+        int count = x->node ? (int)ves_reader_count(reader, x->node, x->key) : 0;
+        reader->problem->quadrature[k] = count;
+        if (count > 0 && count < VES_NODES_LEAST)
+            ves_reader_error(reader, VES_RANGE, x->node,
+                             "\"%s\" must be at least %d, got %d; 0, or no \"%s\", has it chosen", name[k],
+                             VES_NODES_LEAST, count, name[k]);
     }
+    if (reader->errors == before) nodes_check(reader, node);
 }
