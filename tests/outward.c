@@ -191,6 +191,37 @@ Test(outward, parts_that_overlap_at_the_start_are_both_solid)
     }
 }
 
+/* Two capped cylinders, wherever they stand. Over one of them its caps count, and no other. */
+Test(outward, what_is_measured_over_one_closed_part_has_its_caps_alone)
+{
+    static const double at[] = {0, 3, -7.5};
+    for (int k = 0; k < 3; k++) {
+        char text[1500];
+        snprintf(
+            text, sizeof text,
+            "vesica: 1\nvariables: {r: [0.5, 1, 2]}\nparameters: {z: %g}\ncurves:\n"
+            "  a: {circle: {radius: r, centre: [0, 0, z]}}\n"
+            "  b: {circle: {radius: r, centre: [0, 0, z + 2]}}\n"
+            "  c: {circle: {radius: 2*r, centre: [9, 0, z]}}\n"
+            "  d: {circle: {radius: 2*r, centre: [9, 0, z + 1]}}\npatches:\n"
+            "  one: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: a}, {u: 1, position: b}]}\n"
+            "  two: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: c}, {u: 1, position: d}]}\n"
+            "shape: {closed: true, caps: [one.u0, one.u1, two.u0, two.u1]}\nmeasures:\n"
+            "  one_holds: {volume: {over: one}}\n  two_holds: {volume: {over: [two]}}\n"
+            "  middle: {centroid: {of: volume, over: two, along: [0, 0, 1]}}\nminimize: volume\n",
+            at[k]);
+        bed b = bed_make(text);
+        ves_design design;
+        double r = 1.3, one = 2 * PI * r * r;
+        const double want[] = {one, 2 * one, at[k] + 0.5, 3 * one};
+        cr_assert_eq(ves_plan_measure(b.plan, &r, 0, &design), VES_OK);
+        for (int m = 0; m < 4; m++)
+            cr_expect(fabs(design.measure[m] - want[m]) < 1e-11, "%s at %g: got %.15g, want %.15g",
+                      b.problem->measure[m].name, at[k], design.measure[m], want[m]);
+        bed_clear(&b);
+    }
+}
+
 /* What needs no inside is measured on a shape that has none. */
 Test(outward, a_shape_without_an_inside_has_an_area)
 {

@@ -75,7 +75,7 @@ typedef struct ves_adjoint {
 } ves_adjoint;
 
 /* What an instance of a measure reads. Samples come in this order: surfaces (those named in `over`, or all;
- * none when `surface` is 0), caps (none when `cap` is 0), looks (`looks` for each surface), then one for each
+ * none when `surface` is 0), caps (on the patches named in `over`, or all; none when `cap` is 0), looks (`looks` for each surface), then one for each
  * CURVE or PLACE key that was given, in the order of the table. An optional key that was not given has no
  * sample: those behind it move up. ves_sample_of finds them. */
 typedef struct ves_measure_input {

@@ -107,6 +107,21 @@ static int surfaces_of(const ves_problem *p, const ves_measure_def *m)
     return !wanted ? 0 : m->over ? m->over : p->patches;
 }
 
+/* Is the cap on a patch that the measure is over? */
+static bool caps_it(const ves_problem *p, const ves_measure_def *m, int cap)
+{
+    bool found = !m->over;
+    for (int k = 0; k < m->over; k++) found = found || m->patch[k] == p->shape.cap[cap].patch;
+    return m->measure->cap && found;
+}
+
+static int caps_of(const ves_problem *p, const ves_measure_def *m)
+{
+    int count = 0;
+    for (int k = 0; k < p->shape.caps; k++) count += caps_it(p, m, k);
+    return count;
+}
+
 static ves_status instance_build(ves_plan *plan, plan_level *l, int m)
 {
     const ves_problem *p = plan->problem;
@@ -114,7 +129,7 @@ static ves_status instance_build(ves_plan *plan, plan_level *l, int m)
     const ves_measure *measure = def->measure;
     plan_instance *in = &l->instance[m];
     unsigned wanted = measure->needs ? measure->needs(&def->args) : measure->surface;
-    int surfaces = surfaces_of(p, def), caps = measure->cap ? p->shape.caps : 0, refs = references(def);
+    int surfaces = surfaces_of(p, def), caps = caps_of(p, def), refs = references(def);
     int looks = surfaces * measure->looks, count = surfaces + caps + looks + refs, at = 0;
     in->site = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->site);
     in->need = ves_arena_take(&plan->arena, (size_t)count, sizeof *in->need);
@@ -123,7 +138,8 @@ static ves_status instance_build(ves_plan *plan, plan_level *l, int m)
         in->site[at] = patches_of(p, def, k);
         need(plan, l, m, at++, wanted);
     }
-    for (int k = 0; k < caps; k++) {
+    for (int k = 0; k < p->shape.caps; k++) {
+        if (!caps_it(p, def, k)) continue;
         VES_TRY(cap_add(plan, l, k, &in->site[at]));
         need(plan, l, m, at++, measure->cap);
     }

@@ -91,7 +91,7 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
 const ves_measure ves_measure_centroid = {
     .name = "centroid",
     .about = "one component of the centre of gravity, along y unless `along` is given, of the surface or of "
-             "the volume",
+             "the volume (as `volume` has it)",
     .unit = "m",
     .degree = 1,
     .surface = VES_X | VES_NORMAL | VES_AREA,

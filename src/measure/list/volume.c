@@ -1,8 +1,10 @@
 #include "measure/flux.h"
 
-/* Volume inside the closed shape: the flux of X / 3 through patches and caps. A cubic polynomial in the
- * modes: the trapezoid rule is exact for it once there are more than three times as many nodes as modes. test
- * sphere, cylinder with caps, translation */
+/* Volume inside the closed shape: the flux of X / 3 through patches and caps. Through some patches of a closed
+ * part alone it is the volume of the cones from the origin to them, which depends on where the part stands;
+ * through all of one part with its caps it does not. A cubic polynomial in the modes: the trapezoid rule is exact
+ * for it once there are more than three times as many nodes as modes.
+ * test  sphere, cylinder with caps, translation; one of two capped cylinders */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
     double caps = 0, sum = 0;
@@ -56,12 +58,14 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
     }
 }
 
-const ves_measure ves_measure_volume = {.name = "volume",
-                                        .about = "volume inside the closed shape, caps included",
-                                        .unit = "m^3",
-                                        .degree = 3,
-                                        .surface = VES_X | VES_NORMAL | VES_AREA,
-                                        .cap = VES_X | VES_XV,
-                                        .closed = true,
-                                        .eval = eval,
-                                        .gradient = gradient};
+const ves_measure ves_measure_volume = {
+    .name = "volume",
+    .about = "volume inside the closed shape, caps included; over less than all of a closed part: of the "
+             "cones from the origin to that, which depends on where it stands",
+    .unit = "m^3",
+    .degree = 3,
+    .surface = VES_X | VES_NORMAL | VES_AREA,
+    .cap = VES_X | VES_XV,
+    .closed = true,
+    .eval = eval,
+    .gradient = gradient};
