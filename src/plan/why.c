@@ -20,11 +20,11 @@ static void outside_tell(const ves_plan *plan, const char *what, ves_diag *diag)
 {
     const ves_problem *p = plan->problem;
     const ves_limit *l = ves_plan_limit(plan);
-    char limit[96], got[32], root[32];
+    char limit[96], got[VES_QUANTITY], root[VES_QUANTITY];
     if (!l) return;
     ves_limit_text(l->low, l->high, limit);
-    ves_number_text(plan->block[l->number], got);
-    if (p->solve) ves_number_text(plan->block[p->variables], root);
+    ves_quantity_text(plan->block[l->number], l->dim, p->units, got);
+    if (p->solve) ves_quantity_text(plan->block[p->variables], p->solve->dim, p->units, root);
     ves_diag_add(diag, VES_WARNING, VES_OUTSIDE, l->mark, "%s: \"%s\" must be %s, got %s%s%s%s%s", what,
                  l->key, limit, got, p->solve ? ", with " : "", p->solve ? p->solve->name : "",
                  p->solve ? " = " : "", p->solve ? root : "");

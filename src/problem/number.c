@@ -198,8 +198,8 @@ static void check_range(ves_reader *reader, const ves_node *node, const ves_key 
     double value = ves_reader_value(reader, formula);
     bool constant = !ves_reader_varies(reader, formula);
     if (!constant && (isnan(value) || !bounded(key))) return;
-    char limits[96], got[32];
-    ves_number_text(value, got);
+    char limits[96], got[VES_QUANTITY];
+    ves_quantity_text(value, ves_formula_dim(formula), reader->dimensions, got);
     ves_limit_text(key->min, key->max, limits);
     if (isinf(value) && constant) {
         ves_reader_error(reader, VES_RANGE, node,
@@ -224,9 +224,9 @@ static void check_variable(ves_reader *reader, const ves_node *node, const ves_k
         if (strcmp(v->name, node->text)) continue;
         double worst = inside(key, v->min) ? v->max : v->min;
         if (inside(key, worst) || isnan(worst)) return;
-        char limits[96], got[32];
+        char limits[96], got[VES_QUANTITY];
         ves_limit_text(key->min, key->max, limits);
-        ves_number_text(worst, got);
+        ves_quantity_text(worst, v->dim, reader->dimensions, got);
         ves_reader_error(reader, VES_RANGE, node, "\"%s\" must be %s, but variable \"%s\" may become %s",
                          key->name, limits, v->name, got);
         return;
@@ -264,7 +264,7 @@ const ves_formula *ves_reader_number(ves_reader *reader, const ves_node *node, c
     return formula;
 }
 
-static void note_limit(ves_reader *reader, const ves_node *node, const ves_key *key, int number)
+static void note_limit(ves_reader *reader, const ves_node *node, const ves_key *key, int number, ves_dim dim)
 {
     if (reader->limits == reader->limit_room) {
         int room = reader->limit_room ? 2 * reader->limit_room : 16;
@@ -273,7 +273,7 @@ static void note_limit(ves_reader *reader, const ves_node *node, const ves_key *
         reader->limit = more;
         reader->limit_room = room;
     }
-    const ves_limit limit = {number, key->min, key->max, key->name, ves_reader_mark(reader, node)};
+    const ves_limit limit = {number, key->min, key->max, key->name, dim, ves_reader_mark(reader, node)};
     reader->limit[reader->limits++] = (ves_reader_limit){limit, reader->owner};
 }
 
@@ -281,7 +281,8 @@ int ves_reader_place(ves_reader *reader, const ves_node *node, const ves_key *ke
 {
     const ves_formula *formula = ves_reader_number(reader, node, key);
     int index = ves_reader_append(reader, formula);
-    if (bounded(key) && ves_reader_varies(reader, formula)) note_limit(reader, node, key, index);
+    if (bounded(key) && ves_reader_varies(reader, formula))
+        note_limit(reader, node, key, index, ves_formula_dim(formula));
     return index;
 }
 

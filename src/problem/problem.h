@@ -173,6 +173,7 @@ typedef struct ves_limit {
     int number; /* number block index */
     double low, high;
     const char *key;
+    ves_dim dim;
     ves_mark mark;
 } ves_limit;
 
@@ -220,8 +221,10 @@ struct ves_problem {
  * with ves_memory_free whatever the answer. */
 ves_status ves_problem_load(FILE *file, const char *path, char **text, size_t *length, ves_diag *diag);
 
-/* limit.c: "> 0", ">= 0", "in [0, 1]"; and a number for people. */
+/* limit.c: "> 0", ">= 0", "in [0, 1]"; a number for people; and one with its SI unit, where there are units. */
+enum { VES_QUANTITY = 96 };
 void ves_limit_text(double low, double high, char text[96]);
 void ves_number_text(double value, char text[32]);
+void ves_quantity_text(double value, ves_dim dim, bool units, char text[VES_QUANTITY]);
 
 #endif

@@ -258,11 +258,11 @@ static bool read_bounds(slots *s, const ves_node *node, const char *name, int co
     return good && r->errors == before; /* numbers of different dimensions cannot be compared */
 }
 
-static void empty_range(slots *s, const ves_node *node, double low, double high)
+static void empty_range(slots *s, const ves_node *node, double low, double high, ves_dim dim)
 {
-    char a[32], b[32];
-    ves_number_text(low, a);
-    ves_number_text(high, b);
+    char a[VES_QUANTITY], b[VES_QUANTITY];
+    ves_quantity_text(low, dim, s->reader->dimensions, a);
+    ves_quantity_text(high, dim, s->reader->dimensions, b);
     ves_reader_error(s->reader, VES_RANGE, node, "empty range [%s, %s]; %s", a, b,
                      low > high ? "swap them?" : "a number that stays fixed is a parameter");
 }
@@ -303,7 +303,7 @@ static void read_variable(slots *s, int index, const ves_node *starts)
     const ves_node *start = ves_node_find(starts, d->name);
     bool good = d->range ? read_bounds(s, d->range, d->name, 3, bound, &dim) : book_range(s, d, bound, &dim);
     bool empty = good && bound[0] >= bound[2];
-    if (empty) empty_range(s, d->range ? d->range : d->word, bound[0], bound[2]);
+    if (empty) empty_range(s, d->range ? d->range : d->word, bound[0], bound[2], dim);
     if (start) {
         const ves_key key = {.name = d->name, .kind = VES_NUMBER};
         ves_dim *outer = r->free;
@@ -355,7 +355,7 @@ static void read_unknown(slots *s, const ves_node *solve)
     double bound[2] = {NAN, NAN};
     ves_dim dim = {.any = true};
     if (s->unknown_range && read_bounds(s, s->unknown_range, "in", 2, bound, &dim) && bound[0] >= bound[1])
-        empty_range(s, s->unknown_range, bound[0], bound[1]);
+        empty_range(s, s->unknown_range, bound[0], bound[1], dim);
     r->slot[s->variables].dim = dim;
     r->value[s->variables] = (bound[0] + bound[1]) / 2;
     *out = (ves_solve){.mark = ves_reader_mark(r, solve),
