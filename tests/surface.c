@@ -286,25 +286,6 @@ Test(surface, point_sheets_converge_with_order_four)
     }
 }
 
-Test(surface, point_sheets_have_a_largest_size)
-{
-    char text[40000], message[400];
-    size_t at = (size_t)snprintf(text, sizeof text, "vesica: 1\npatches: {p: {surface: {points: [");
-    for (int c = 0; c < 2002; c++)
-        at += (size_t)snprintf(text + at, sizeof text - at, "%s[%d, %d, 0]%s",
-                               c % 1001 ? ", "
-                               : c      ? ", ["
-                                        : "[",
-                               c % 1001, c / 1001, c % 1001 == 1000 ? "]" : "");
-    snprintf(text + at, sizeof text - at, "]}}}\nexpect: [area > 0]\n");
-    ves_problem *problem;
-    ves_diag *diag = ves_diag_create();
-    cr_expect(ves_problem_read_text("t", text, strlen(text), NULL, &problem, diag) == VES_RANGE);
-    ves_diag_text(diag, 0, message, sizeof message);
-    cr_expect(strstr(message, "at most 1000 rows of at most 1000, got 2 of 1001"), "%s", message);
-    ves_diag_destroy(diag);
-}
-
 /* Gauss-Legendre with n nodes is exact up to degree 2n - 1. */
 Test(surface, gauss_nodes_are_exact_to_their_degree)
 {
