@@ -501,26 +501,30 @@ static ves_status descend(ves_descent *d, const ves_point *from, bool first, dou
     return d->lost && status == VES_NO_NUMBER ? VES_OK : status;
 }
 
-/* Where a run ended some constraint that was put off may not hold: then the next one begins there and sees to it
- * first. What is still violated after some of these, or after a run that left nothing out, contradicts the rest:
- * the augmented Lagrangian meets it halfway. Returns whether a next run is due. */
+/* Where a run ended some constraint that was put off may not hold: then the next one, which is due, begins there
+ * and sees to it first; after some of these the augmented Lagrangian holds all. */
 static ves_status look_back(ves_descent *d, bool *due)
 {
     bool off = false;
     for (int j = 0; j < d->session->m; j++) off = off || d->hold[j] == VES_HOLD_LATER;
-    d->turned = false;
-    *due = false;
-    if (off && !d->halted) {
-        VES_TRY(ves_descent_look(d, d->route, false));
-        *due = d->last.status == VES_OK && ves_rows_owing(d);
-        d->turned = *due && d->choices++ < CHOICES;
-        if (d->turned) ves_descent_keep(d, &d->aside);
-    }
-    bool contrary = d->best.verdict.violation > d->session->tolerance && d->recipe.gradient &&
-                    d->inequalities + d->equalities > 0;
-    if (d->turned || d->halted || !(*due || contrary)) return VES_OK;
-    *due = d->halfway = true;
+    d->turned = *due = false;
+    if (!off || d->halted) return VES_OK;
+    VES_TRY(ves_descent_look(d, d->route, false));
+    *due = d->last.status == VES_OK && ves_rows_owing(d);
+    d->turned = *due && d->choices++ < CHOICES;
+    if (d->turned)
+        ves_descent_keep(d, &d->aside);
+    else if (*due)
+        d->halfway = true;
     return VES_OK;
+}
+
+/* What a run that has nothing put off cannot meet contradicts the rest, as far as it can see: the augmented
+ * Lagrangian meets it halfway. */
+static bool contrary(const ves_descent *d)
+{
+    return d->recipe.gradient && d->best.verdict.violation > d->session->tolerance &&
+           d->inequalities + d->equalities > 0;
 }
 
 ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *end)
@@ -540,7 +544,11 @@ ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *en
         due = d->turned = false;
         if (astray || status != VES_OK) continue;
         status = look_back(d, &due);
-        if (!due && k && !progressed(d, &before, &end->verdict)) break;
+        bool stuck = !due && !d->halted && !progressed(d, &before, &end->verdict);
+        if (!due && (stuck || !d->wrapped) && contrary(d))
+            due = d->halfway = true;
+        else if (stuck && k)
+            break;
         due = due || limited; /* what stopped at the edge of its own reach has not converged */
     }
     return d->asker.fault ? d->asker.fault : status;

@@ -93,8 +93,7 @@ static ves_status advance(task *t)
     ves_status status = ves_descent_run(&t->descent, &t->wait[from], &end->point);
     if (above >= 0 && lower(t, &end->point.verdict, &t->end[above].point.verdict)) t->end[above].pass = true;
     VES_TRY(status);
-    long cost = 2L * session->n + 20;
-    if (!t->checks || t->descent.budget - t->descent.used < cost) return VES_OK;
+    if (!t->checks || ves_descent_spent(&t->descent)) return VES_OK;
     VES_TRY(ves_saddle_check(&t->saddle, &t->descent, &end->point, &end->saddle));
     if (t->saddle.edge >= 0) note_edge(t);
     end->stalled =

@@ -12,6 +12,8 @@
  * variables), not saddles.
  * test  x^4/4 - x^2/2 + y^2 from (0, 1); a flat valley; saddles on constraints */
 
+enum { ROOM_TO_LEAVE = 20 }; /* evaluations: without them a saddle is not looked for, only the slope at */
+
 static const double step = 2e-5;       /* in u: truncation ~ 1e-10, noise of a gradient / 2e-5 */
 static const double near_wall = 1e-9;  /* in u */
 static const double near_limit = 1e-6; /* in u: an active constraint is so near, or within the tolerance */
@@ -308,6 +310,11 @@ ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *poin
     s->lagrangian = lagrangian(s, d);
     if (d->session->m) memcpy(s->touching, d->last.jacobian, (size_t)(d->session->m * n) * sizeof(double));
     if (!s->frees) return VES_OK;
+    s->largest = 0;
+    if (d->budget - d->used < 2L * n + ROOM_TO_LEAVE) {
+        s->stalled = stalls(s, d);
+        return VES_OK;
+    }
     bool ok = true;
     VES_TRY(differences(s, d, &ok));
     s->running = s->edge >= 0 && runs(s, d);
