@@ -66,7 +66,7 @@ static ves_status spline_create(int n, bool periodic, ves_arena *arena, spline *
 {
     *s = (spline){.knots = n, .periodic = periodic};
     double *room = ves_arena_doubles(arena, (size_t)n);
-    s->moment = ves_arena_doubles(arena, (size_t)n * (size_t)n);
+    s->moment = ves_arena_take(arena, (size_t)n * (size_t)n, sizeof *s->moment); /* zeros: those of a line */
     if (!room || !s->moment) return VES_MEMORY;
     if (periodic)
         closed_moments(s);
