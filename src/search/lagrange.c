@@ -13,6 +13,10 @@ enum { ROUNDS = 40 };
 
 static const double first_penalty = 10, most_penalty = 1e8, faster = 10, enough = 0.3;
 
+/* mma and ccsa model L by diagonal quadratics, and end to the root of rounding, the worse the steeper it is: what
+ * they leave, up to so many times what counts as rounding, does not fall for a penalty beyond. */
+static const double blurred = 1e4, blurred_penalty = 1e4;
+
 static bool held(const ves_descent *d, int j)
 {
     return d->hold[j] == VES_HOLD_BELOW || d->hold[j] == VES_HOLD_EQUAL;
@@ -107,7 +111,8 @@ ves_status ves_lagrange_run(ves_descent *d, double step)
         double way = moved(d);
         step = fmin(fmax(way, 1e-5), 0.1);
         if (error <= d->session->tight && way <= 100 * d->options->x_tolerance) break;
-        if (!(error <= enough * before) && d->penalty < most_penalty) d->penalty *= faster;
+        double most = d->recipe.dual && error < blurred * d->session->tight ? blurred_penalty : most_penalty;
+        if (!(error <= enough * before) && d->penalty < most) d->penalty *= faster;
         before = error;
         factor = fmax(1, 0.1 * factor);
     }
