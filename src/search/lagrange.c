@@ -4,10 +4,11 @@
 #include "search/descent.h"
 
 /* Augmented Lagrangian of Powell, Hestenes and Rockafellar, updated as by Birgin and Martinez (2008), for
- * algorithms that take no constraints of a kind: L = F + sum_eq (lambda c + r c^2 / 2) + sum_ineq (max(0,
- * lambda + r c)^2 - lambda^2) / (2 r) NLopt's own needs tolerances for its inner algorithm, or never ends,
- * and stops where that happens to pause; this one ends when the constraints hold and nothing moves. test g06,
- * a can of given area and Rosenbrock in a disk, by every algorithm */
+ * algorithms that take no constraints of a kind:
+ *     L = F + sum_eq (lambda c + r c^2 / 2) + sum_ineq (max(0, lambda + r c)^2 - lambda^2) / (2 r)
+ * NLopt's own needs tolerances for its inner algorithm, or never ends, and stops where that happens to pause;
+ * this one ends when the constraints hold and nothing moves.
+ * test  g06, a can of given area and Rosenbrock in a disk, by every algorithm */
 
 enum { ROUNDS = 40 };
 
