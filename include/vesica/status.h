@@ -18,7 +18,7 @@ extern "C" {
     X(INVERTED, 3, "the shape has turned inside out")                                                        \
     X(NARROW, 4, "the shape comes closer to its axis than allowed")                                          \
     X(NOT_MONOTONE, 5, "the height does not grow along the surface")                                         \
-    X(NO_ROOT, 6, "the equation to solve has no root in the given interval")                                 \
+    X(NO_ROOT, 6, "the equation to solve does not change its sign between the ends of solve.in")             \
     X(NO_NUMBER, 7, "a measure is not a finite number")                                                      \
     X(SELF_INTERSECTS, 8, "the surface crosses itself")                                                      \
     X(COARSE, 9, "the value does not hold on a finer grid")                                                  \

@@ -217,9 +217,9 @@ const char *ves_describe_status(ves_status status)
     case VES_NOT_MONOTONE:
         return "Asked for by validity: {monotone: ...}.";
     case VES_NO_ROOT:
-        return "Both ends of the interval `in` of `solve` lie on one side of its equation. Widen it, or "
-               "narrow the "
-               "ranges of the\n      variables. Or the equation jumps over 0, as 1/(area - 2) or sign() do.";
+        return "Both ends of the interval `in` of `solve` lie on one side of its equation: no root "
+               "between them, or two. Widen or narrow it, or\n      narrow the ranges of the variables. Or "
+               "the equation jumps over 0, as 1/(area - 2) or sign() do.";
     case VES_NO_SCALE:
         return "The measure or the formula of `scale` is 0, infinite, or they have different signs. Narrow "
                "the ranges of the\n      variables.";
