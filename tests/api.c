@@ -544,6 +544,7 @@ static const ves_key keys[] = {
     {.name = "twice", .kind = VES_FLAG, .about = "count it twice"},
     {.name = "near", .kind = VES_CURVE, .about = "a curve that is left out"},
     {.name = "of", .kind = VES_CURVE, .required = true, .about = "the curve"},
+    {.name = "along", .kind = VES_VECTOR, .fallback = 1e300, .about = "three of any size"},
     {0},
 };
 

@@ -298,7 +298,8 @@ static void given(ves_reader *reader, const ves_field *field, ves_arg *arg)
 static void absent(ves_reader *reader, const ves_key *key, ves_arg *arg)
 {
     bool three = key->kind == VES_VECTOR || key->kind == VES_SCALES;
-    arg->value = (int)(key->kind == VES_NUMBER ? 0 : key->fallback);
+    bool whole = key->kind == VES_COUNT || key->kind == VES_FLAG || key->kind == VES_CHOICE;
+    arg->value = whole ? (int)key->fallback : 0; /* of other kinds a plugin may say any number */
     if (key->kind != VES_NUMBER && !three) return;
     const ves_formula *formula = ves_formula_constant(key->fallback, reader->arena);
     if (!ves_reader_memory(reader, formula)) return;
