@@ -116,7 +116,7 @@ typedef struct ves_run_hooks {
 } ves_run_hooks;
 
 /* options, hooks, diag: NULL for none. diag gets warnings and errors. VES_OK: see ending, feasible, passed.
- * VES_RANGE: a negative number among the options, or an unknown trace.
+ * VES_RANGE: a negative number among the options, a budget beyond 2^53, or an unknown trace.
  * VES_IO or VES_MEMORY with a result: it holds, but its folder could not be filled. VES_USAGE, VES_IO without
  * a result: its folder cannot be made; nothing was searched. Whenever there is no result, *run is NULL.
  * Destroy a run before its problem. */

@@ -102,6 +102,19 @@ static ves_status others(ves_session *session, ves_asker *asker)
     return VES_OK;
 }
 
+/* Where the start fails the best of the others stands for it or, when there is none, what a look round finds. */
+static ves_status elsewhere(ves_session *session, ves_asker *asker, ves_point *start)
+{
+    if (session->ends) {
+        ves_point_copy(start, &session->end[0].point, session->n, session->m);
+        return VES_OK;
+    }
+    VES_TRY(look(session, asker, start));
+    if (start->verdict.status == VES_OK)
+        ves_point_copy(&session->end[session->ends++].point, start, session->n, session->m);
+    return VES_OK;
+}
+
 ves_status ves_search_begin(ves_session *session)
 {
     const ves_search_problem *problem = session->problem;
@@ -112,12 +125,10 @@ ves_status ves_search_begin(ves_session *session)
     ves_asker asker;
     ves_asker_init(&asker, session, 0);
     ves_status status = judge(&asker, start, true);
-    if (status == VES_OK && start->verdict.status != VES_OK) status = look(session, &asker, start);
-    if (start->verdict.status == VES_OK) {
-        ves_point_copy(&session->end[0].point, start, session->n, session->m);
-        session->ends = 1;
-    }
+    if (start->verdict.status == VES_OK)
+        ves_point_copy(&session->end[session->ends++].point, start, session->n, session->m);
     if (status == VES_OK) status = others(session, &asker);
+    if (status == VES_OK && start->verdict.status != VES_OK) status = elsewhere(session, &asker, start);
     ves_asker_flush(&asker);
     ves_asker_destroy(&asker);
     return status;

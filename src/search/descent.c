@@ -509,7 +509,8 @@ static ves_status look_back(ves_descent *d, bool *due)
     for (int j = 0; j < d->session->m; j++) off = off || d->hold[j] == VES_HOLD_LATER;
     d->turned = *due = false;
     if (!off || d->halted) return VES_OK;
-    VES_TRY(ves_descent_look(d, d->route, false));
+    ves_status status = ves_descent_look(d, d->route, false);
+    if (status != VES_OK) return d->lost && status == VES_NO_NUMBER ? VES_OK : status;
     *due = d->last.status == VES_OK && ves_rows_owing(d);
     d->turned = *due && d->choices++ < CHOICES;
     if (d->turned)

@@ -38,7 +38,8 @@ static ves_status flat(ves_asker *asker, const ves_point *a, const ves_point *b,
     ves_session *session = asker->session;
     const ves_verdict *start = &session->start.verdict;
     double fa = a->verdict.value, fb = b->verdict.value;
-    double size = fmax(fmax(fabs(fa), fabs(fb)), 1e-3 * fabs(start->value - fa));
+    double way = start->status == VES_OK ? fabs(start->value - fa) : 0;
+    double size = fmax(fmax(fabs(fa), fabs(fb)), 1e-3 * way);
     *same = false;
     if (fabs(fa - fb) > level * size) return VES_OK;
     if (session->problem->same) VES_TRY(session->problem->same(session->problem->data, a->x, b->x, same));
@@ -191,6 +192,7 @@ static ves_status step_towards(ves_session *session, ves_asker *asker, ves_point
 {
     ves_ask ask = {.x = point->x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
     ves_proof proof = VES_PROOF_REFUSED;
+    *on = false;
     VES_TRY(ves_asker_judge(asker, &ask, &point->verdict));
     ves_asker_record(asker, point->x, &point->verdict, false, NAN, false);
     ves_asker_flush(asker);
@@ -253,7 +255,7 @@ static ves_status choose(ves_session *session, const ves_point **best, bool *pro
     tell_refused(session);
     *proved = session->best.verdict.status == VES_OK;
     *best = *proved ? &session->best : start;
-    if (*proved || start->verdict.status != VES_OK) return VES_OK;
+    if (*proved || (start->verdict.status != VES_OK && !session->ends)) return VES_OK;
     if (session->ends && ves_session_better(session, &session->end[0].point.verdict, &start->verdict))
         *best = &session->end[0].point;
     const char *why = session->refused ? "no best passed its proof" : "nothing was proved";

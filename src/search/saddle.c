@@ -106,6 +106,13 @@ static void solve(ves_saddle *s, const ves_descent *d)
     }
 }
 
+static void swap(int *a, int *b)
+{
+    int kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
 /* The inequality that pulls hardest the wrong way is not active; returns its place among the active ones, or
  * -1. */
 static int wrong(const ves_saddle *s, const ves_descent *d)
@@ -119,8 +126,31 @@ static int wrong(const ves_saddle *s, const ves_descent *d)
     return worst;
 }
 
-/* A row that depended on one that pulls the wrong way comes back when that one goes: of two opposite
- * inequalities, an equation in two words, one always stays. */
+/* Of the inequalities that went, the one that the way down, against the slope, would violate most; its place in
+ * touched, or -1. */
+static int missed(ves_saddle *s, const ves_descent *d, int rows)
+{
+    int n = d->session->n, worst = -1;
+    double most = sideways;
+    lagrangian_slope(s, d, s->slope);
+    for (int t = rows; t < s->near; t++) {
+        double along = 0, size = 0, steepness = 0;
+        for (int k = 0; k < s->frees; k++) {
+            int i = s->free[k];
+            double g = d->last.jacobian[s->touched[t] * n + i] * d->range[i];
+            along -= g * s->slope[i];
+            size += g * g;
+            steepness += s->slope[i] * s->slope[i];
+        }
+        double part = size * steepness > 0 ? along / sqrt(size * steepness) : 0;
+        if (part > most) worst = t, most = part;
+    }
+    return worst;
+}
+
+/* Multipliers that are not negative, as of non-negative least squares (Lawson and Hanson 1974, ch. 23). A row
+ * that depended on one that pulls the wrong way comes back when that one goes: of two opposite inequalities, an
+ * equation in two words, one always stays. */
 static void multipliers(ves_saddle *s, const ves_descent *d)
 {
     int rows = 0;
@@ -129,17 +159,20 @@ static void multipliers(ves_saddle *s, const ves_descent *d)
         if (ves_session_equality(d->session, j) || d->last.constraint[j] >= -limit) s->touched[rows++] = j;
     }
     s->near = rows;
-    for (;;) {
+    for (int turns = 4 * rows;; turns--) {
         memcpy(s->row, s->touched, (size_t)rows * sizeof(int));
         s->active = rows;
         span(s, d);
         solve(s, d);
-        int k = wrong(s, d);
-        if (k < 0) return;
-        int gone = s->row[k], at = 0;
-        while (s->touched[at] != gone) at++;
-        s->touched[at] = s->touched[--rows]; /* those that went are kept behind the others */
-        s->touched[rows] = gone;
+        int k = wrong(s, d), at = 0;
+        if (k < 0) { /* none, or one comes back; in a corner of many they may take turns without end */
+            at = turns > 0 ? missed(s, d, rows) : -1;
+            if (at < 0) return;
+            swap(&s->touched[at], &s->touched[rows++]);
+            continue;
+        }
+        while (s->touched[at] != s->row[k]) at++;
+        swap(&s->touched[at], &s->touched[--rows]); /* those that went are kept behind the others */
     }
 }
 

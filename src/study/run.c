@@ -5,6 +5,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/diag.h"
 #include "study/folder.h"
 #include "study/idle.h"
 #include "study/keep.h"
@@ -36,12 +37,8 @@ typedef struct study {
     double seen_violation;
     long failed[STATUS_KINDS]; /* candidates that could not be measured, by status */
     ves_status files;          /* the first file that could not be written */
+    const double *from;        /* [variables] where the search at hand began */
 } study;
-
-static ves_status complain(ves_diag *diag, ves_status status)
-{
-    return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, "%s", ves_status_text(status));
-}
 
 /* Appends a sentence to what the result says of itself. */
 static ves_status note(study *s, const char *text)
@@ -58,7 +55,7 @@ static ves_status note(study *s, const char *text)
 
 static ves_status keep_note(study *s, const char *text)
 {
-    return note(s, text) == VES_OK ? VES_OK : complain(s->diag, VES_MEMORY);
+    return note(s, text) == VES_OK ? VES_OK : ves_diag_fail(s->diag, VES_MEMORY);
 }
 
 /* What is wrong with the design that the result shows is on the screen at once, and in the result. */
@@ -129,7 +126,7 @@ static ves_status plans_fill(study *s, const ves_plan_options *options, ves_plan
     const ves_plan_options same = {{grid[0], grid[1]}};
     for (int k = 1; k < s->run->jobs; k++) {
         ves_status status = ves_plan_create(s->problem, &same, &plan[k], NULL);
-        if (status != VES_OK) return complain(s->diag, status);
+        if (status != VES_OK) return ves_diag_fail(s->diag, status);
     }
     return VES_OK;
 }
@@ -138,7 +135,7 @@ static ves_status plans_make(study *s)
 {
     ves_run *run = s->run;
     s->plan = ves_arena_take(s->arena, (size_t)run->jobs, sizeof *s->plan);
-    if (!s->plan) return complain(s->diag, VES_MEMORY);
+    if (!s->plan) return ves_diag_fail(s->diag, VES_MEMORY);
     VES_TRY(plans_fill(s, NULL, s->plan, s->diag));
     run->change = ves_plan_grid(s->plan[0], run->quadrature);
     return VES_OK;
@@ -147,7 +144,7 @@ static ves_status plans_make(study *s)
 static ves_status measure(study *s, const double *x, int level, ves_design *design)
 {
     ves_status status = ves_design_measure(s->plan[0], s->problem, x, level, s->arena, design);
-    return status == VES_OK ? VES_OK : complain(s->diag, status);
+    return status == VES_OK ? VES_OK : ves_diag_fail(s->diag, status);
 }
 
 static ves_status start_measure(study *s)
@@ -175,18 +172,18 @@ static ves_status idle_find(study *s)
     const ves_problem *p = s->problem;
     size_t n = (size_t)p->variables;
     bool *idle = ves_arena_take(s->arena, n, sizeof *idle);
-    if (!idle) return complain(s->diag, VES_MEMORY);
+    if (!idle) return ves_diag_fail(s->diag, VES_MEMORY);
     s->run->idle = idle;
     if (!ves_study_idle(s->plan[0], p, s->arena, idle)) memset(idle, 0, n * sizeof *idle);
     char *text = NULL;
     for (int k = 0; k < p->variables; k++) {
         if (!idle[k]) continue;
         text = ves_arena_format(s->arena, "%s%s%s", text ? text : "", text ? ", " : "", p->variable[k].name);
-        if (!text) return complain(s->diag, VES_MEMORY);
+        if (!text) return ves_diag_fail(s->diag, VES_MEMORY);
     }
     if (!text) return VES_OK;
     text = ves_arena_format(s->arena, "%s: no effect on what is judged, in the designs looked at", text);
-    return text ? keep_note(s, text) : complain(s->diag, VES_MEMORY);
+    return text ? keep_note(s, text) : ves_diag_fail(s->diag, VES_MEMORY);
 }
 
 /* --- the folder: a disk that fills up later does not stop the search --- */
@@ -206,7 +203,7 @@ static void folder_begin(study *s)
     s->tracer = (ves_tracer){.problem = s->problem, .which = o->trace, .diag = s->diag};
     char *path = ves_folder_path(run->folder, "trace.jsonl", s->arena);
     if (s->files != VES_OK || !run->searched || o->trace == VES_TRACE_NONE) return;
-    s->files = path ? ves_tracer_begin(&s->tracer, path, s->arena) : complain(s->diag, VES_MEMORY);
+    s->files = path ? ves_tracer_begin(&s->tracer, path, s->arena) : ves_diag_fail(s->diag, VES_MEMORY);
 }
 
 static void folder_end(study *s)
@@ -347,10 +344,10 @@ static ves_status result_take(study *s, const ves_search_result *r)
     run->gradients += r->gradients;
     run->refused += r->refused;
     if (words_take(s, r) != VES_OK || counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK)
-        return complain(s->diag, VES_MEMORY);
+        return ves_diag_fail(s->diag, VES_MEMORY);
     double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
-    if (!x) return complain(s->diag, VES_MEMORY);
-    const double *from = r->any ? r->x : run->start.x; /* or no point is better than another */
+    if (!x) return ves_diag_fail(s->diag, VES_MEMORY);
+    const double *from = r->any ? r->x : s->from; /* or no point is better than another */
     memcpy(x, from, sizeof *x * (size_t)r->n);
     rest(s, x);
     VES_TRY(measure(s, x, 1, &run->finer));
@@ -368,6 +365,7 @@ static ves_status search_with(study *s, const ves_search_options *options, const
     ves_search_result *result = NULL;
     ves_search_hooks hooks = {hear_progress, hear_record, hear_stopped, s};
     if (from) problem.start = from[0], problem.other = from + 1, problem.others = count - 1;
+    s->from = problem.start;
     s->stages_before = run->times.stages;
     s->evaluations_before = run->evaluations;
     s->stage = -1;
@@ -376,7 +374,7 @@ static ves_status search_with(study *s, const ves_search_options *options, const
     ves_status status = ves_search_run(&problem, options, &hooks, &result);
     stage_enter(s, s->stage);
     run->times.search += ves_study_clock() - begun;
-    if (!result) return complain(s->diag, status);
+    if (!result) return ves_diag_fail(s->diag, status);
     s->left = result->budget - result->evaluations;
     status = result_take(s, result);
     ves_search_result_destroy(result);
@@ -390,15 +388,15 @@ static ves_status polish_again(study *s, const ves_search_options *again)
     const ves_optimum *old = run->optimum;
     const int count = run->optima;
     const double **from = ves_arena_take(s->arena, (size_t)count + 1, sizeof *from);
-    if (!from) return complain(s->diag, VES_MEMORY);
+    if (!from) return ves_diag_fail(s->diag, VES_MEMORY);
     from[0] = run->best.x;
     for (int k = 1; k < count; k++) from[k] = old[k].x;
     VES_TRY(search_with(s, again, from, count > 1 ? count : 1));
-    if (ves_settle_hits(old, count, s->arena, run) != VES_OK) return complain(s->diag, VES_MEMORY);
+    if (ves_settle_hits(old, count, s->arena, run) != VES_OK) return ves_diag_fail(s->diag, VES_MEMORY);
     if (run->optima >= count) return VES_OK;
     char text[SENTENCE];
-    snprintf(text, sizeof text, "of the %d optima on the coarser grid %d were found again", count,
-             run->optima);
+    snprintf(text, sizeof text, "of the %d optima on the coarser grid %d were%s found again on the finer one",
+             count, run->optima, run->ending == VES_ENDED_STOPPED ? ", before the stop," : "");
     return keep_note(s, text);
 }
 
@@ -407,11 +405,11 @@ static ves_status search_finer(study *s, const ves_search_options *again, const 
     ves_run *run = s->run;
     const ves_plan_options finer = {{grid[0], grid[1]}};
     ves_plan **coarse = s->plan, **plan = ves_arena_take(s->arena, (size_t)run->jobs, sizeof *plan);
-    if (!plan) return complain(s->diag, VES_MEMORY);
+    if (!plan) return ves_diag_fail(s->diag, VES_MEMORY);
     s->plan = plan;
     ves_status status = plans_fill(s, &finer, plan, NULL);
     plans_destroy(coarse, run->jobs);
-    if (status != VES_OK) return complain(s->diag, status);
+    if (status != VES_OK) return ves_diag_fail(s->diag, status);
     run->quadrature[0] = grid[0], run->quadrature[1] = grid[1];
     run->change = change;
     VES_TRY(measure(s, NULL, 0, &run->start));
@@ -430,14 +428,14 @@ static ves_status settle_best(study *s)
     char text[SENTENCE];
     ves_search_options again;
     ves_status status = ves_settle_grid(run, grid, &change);
-    if (status != VES_OK) return complain(s->diag, status);
+    if (status != VES_OK) return ves_diag_fail(s->diag, status);
     if (grid[0] == q[0] && grid[1] == q[1]) return VES_OK;
     bool chosen = s->problem->quadrature[0] == 0 && s->problem->quadrature[1] == 0;
+    if (hear_stopped(s)) run->ending = VES_ENDED_STOPPED; /* the choice of a grid takes its time */
     if (chosen && run->ending != VES_ENDED_STOPPED && ves_settle_search(&s->search, run, s->left, &again)) {
         snprintf(text, sizeof text,
                  "%d x %d nodes a patch, chosen at the start design, left the best unsettled by %.1e: "
-                 "polished once "
-                 "more on %d x %d, chosen at the best",
+                 "polished once more on %d x %d, chosen at the best",
                  q[0], q[1], off, grid[0], grid[1]);
         VES_TRY(keep_note(s, text));
         return search_finer(s, &again, grid, change);
@@ -455,17 +453,17 @@ static ves_status start_prove(study *s, const char *what, ves_status *proof)
     ves_verdict verdict = {0};
     ves_ask ask = {.x = s->run->start.x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
     ves_status status = ves_plan_evaluate(s->plan[0], &ask, &verdict);
-    if (status != VES_OK) return complain(s->diag, status);
-    *proof = verdict.status;
-    snprintf(text, sizeof text, "the %s did not pass its checks: %s", what, ves_status_text(*proof));
-    return *proof == VES_OK ? VES_OK : keep_note(s, text);
+    if (status != VES_OK) return ves_diag_fail(s->diag, status);
+    if (proof) *proof = verdict.status;
+    snprintf(text, sizeof text, "the %s did not pass its checks: %s", what, ves_status_text(verdict.status));
+    return verdict.status == VES_OK ? VES_OK : keep_note(s, text);
 }
 
 static ves_status search(study *s)
 {
     stage_names(s);
-    ves_status proof; /* a search goes on from a start that fails it */
-    if (s->run->start.status == VES_OK) VES_TRY(start_prove(s, "start design", &proof));
+    /* a search goes on from a start that fails its proof */
+    if (s->run->start.status == VES_OK) VES_TRY(start_prove(s, "start design", NULL));
     VES_TRY(search_with(s, &s->search, NULL, 0));
     return s->run->any ? settle_best(s) : VES_OK;
 }
@@ -524,10 +522,10 @@ static ves_status expect(study *s)
     ves_run_expect *expect = ves_arena_take(s->arena, (size_t)run->expects, sizeof *expect);
     double *argument = expect_arguments(s);
     run->expect = expect;
-    if (!expect || !argument) return complain(s->diag, VES_MEMORY);
+    if (!expect || !argument) return ves_diag_fail(s->diag, VES_MEMORY);
     for (int k = 0; k < run->expects; k++) {
         double *room = ves_arena_take(s->arena, (size_t)ves_formula_room(list[k].formula), sizeof *room);
-        if (!room) return complain(s->diag, VES_MEMORY);
+        if (!room) return ves_diag_fail(s->diag, VES_MEMORY);
         expect[k] = (ves_run_expect){list[k].text, holds(s, list[k].formula, argument, room)};
         run->passed = run->passed && expect[k].passed;
     }
@@ -556,9 +554,11 @@ static ves_status work(study *s)
 
 static ves_status options_check(const ves_run_options *o, ves_diag *diag)
 {
-    if (o->evaluations >= 0 && o->jobs >= 0 && (unsigned)o->trace <= VES_TRACE_NONE) return VES_OK;
+    if (o->evaluations >= 0 && o->evaluations <= 1L << 53 && o->jobs >= 0 &&
+        (unsigned)o->trace <= VES_TRACE_NONE)
+        return VES_OK;
     return ves_diag_add(diag, VES_ERROR, VES_RANGE, (ves_mark){0},
-                        "options of a run: evaluations %ld and jobs %d must be >= 0, trace %d 0 to %d",
+                        "options of a run: evaluations %ld must be 0 to 2^53, jobs %d >= 0, trace %d 0 to %d",
                         o->evaluations, o->jobs, (int)o->trace, (int)VES_TRACE_NONE);
 }
 
@@ -570,7 +570,7 @@ ves_status ves_run_create(const ves_problem *problem, const ves_run_options *opt
     *out = NULL;
     if (options) VES_TRY(options_check(options, diag));
     ves_run_box *box = ves_memory_take(sizeof *box);
-    if (!box) return complain(diag, VES_MEMORY);
+    if (!box) return ves_diag_fail(diag, VES_MEMORY);
     study s = {.problem = problem,
                .options = options ? options : &plain,
                .hooks = hooks ? hooks : &deaf,
