@@ -19,7 +19,7 @@
 extern "C" {
 #endif
 
-enum { VES_ABI = 1, VES_NO_DEGREE = -100 };
+enum { VES_ABI = 2, VES_NO_DEGREE = -100 };
 
 /* What a measure may ask to be filled. */
 enum {
@@ -75,9 +75,9 @@ typedef struct ves_adjoint {
 } ves_adjoint;
 
 /* What an instance of a measure reads. Samples come in this order: surfaces (those named in `over`, or all;
- * none when `surface` is 0), caps (on the patches named in `over`, or all; none when `cap` is 0), looks (`looks` for each surface), then one for each
- * CURVE or PLACE key that was given, in the order of the table. An optional key that was not given has no
- * sample: those behind it move up. ves_sample_of finds them. */
+ * none when `surface` is 0), caps (on the patches named in `over`, or all; none when `cap` is 0), looks
+ * (`looks` for each surface), then one for each CURVE or PLACE key that was given, in the order of the table.
+ * An optional key that was not given has no sample: those behind it move up. ves_sample_of finds them. */
 typedef struct ves_measure_input {
     int samples;
     const ves_samples *const *sample;
@@ -91,9 +91,9 @@ typedef struct ves_measure_input {
      * Fills look number k of surface number i at the points u[0..2] x v[0..2] (node = 3 j + i; 0 <= u <= 1,
      * 0 <= v <= 2 pi; they may coincide) and returns the index of its sample and of its adjoint; -1: at one
      * of them the surface has no number, or no tangent plane for what needs one. At an end that is one point
-     * (a pole) normal, H and K are their limits along v; -1 where these do not exist, as at the tip of a cone. What a look was filled with
-     * last in eval is what gradient finds. It costs a quarter of what 16 x 32 nodes of a patch cost. input is
-     * the very one that eval was called with, no copy. */
+     * (a pole) normal, H and K are their limits along v; -1 where these do not exist, as at the tip of a
+     * cone. What a look was filled with last in eval is what gradient finds. It costs a quarter of what 16 x
+     * 32 nodes of a patch cost. input is the very one that eval was called with, no copy. */
     int (*look)(const struct ves_measure_input *input, int i, int k, const double u[3], const double v[3]);
     int first_look; /* index of the first sample of looks */
 } ves_measure_input;
@@ -167,9 +167,9 @@ typedef struct ves_measure {
 } ves_measure;
 
 /* Members are only ever appended, to this struct and to those above, and the enums only grow; the sizes tell
- * which of them a plugin was built with: a vesica that is older than the plugin, in any of them, refuses it, a
- * newer one takes the members of ves_measure that the plugin does not know for 0. ves_key and ves_arg stand in
- * arrays: they change only with VES_ABI. */
+ * which of them a plugin was built with: a vesica that is older than the plugin, in any of them, refuses it,
+ * a newer one takes the members of ves_measure that the plugin does not know for 0. ves_key and ves_arg stand
+ * in arrays: they change only with VES_ABI. */
 typedef struct ves_plugin {
     int abi;      /* VES_ABI */
     size_t size;  /* sizeof(ves_measure) */

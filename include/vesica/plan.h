@@ -24,8 +24,9 @@ extern "C" {
 typedef struct ves_plan ves_plan;
 
 typedef struct ves_plan_options {
-    /* nodes along u, 5 to 4096, and along v, 5 to 65536, of each patch; 0: as the problem says; when that is
-     * `auto`: chosen. u times v is at most 262144 by the number of patches, or 64 * 264, whichever is more. */
+    /* nodes along u, 5 to 4096, and along v, 5 to 32768, of each patch; 0: as the problem says; when that is
+     * `auto`: chosen. u times v is at most 262144 over the number of patches, or 64 * 264, whichever is more;
+     * one that is left to be chosen counts as 64 or 264. */
     int quadrature[2];
 } ves_plan_options;
 
@@ -33,7 +34,8 @@ typedef struct ves_plan_options {
  * plans of the same problem the grid of the first (ves_plan_grid). On failure *plan is NULL and the reason is
  * in diag, which may be NULL. A start design that cannot be measured is no failure: normals then face outward
  * at the first of up to 31 others that can be measured and encloses a volume, the same for every plan.
- * VES_RANGE: no such grid. VES_SINGULAR where a measure needs an inside (volume) and no design that was tried encloses anything. */
+ * VES_RANGE: no such grid. VES_SINGULAR where a measure needs an inside (volume) and no design that was tried
+ * encloses anything. */
 ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *options, ves_plan **plan,
                            ves_diag *diag);
 void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
@@ -50,8 +52,8 @@ double ves_plan_grid(const ves_plan *plan, int quadrature[2]);
  * says of its grid. *change: what ves_plan_grid returns. Returns VES_OK, or negative for faults. */
 ves_status ves_plan_choose(const ves_problem *problem, const double *x, int quadrature[2], double *change);
 
-/* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation: in units
- * of `within`, which counts 1e-6, where those of ves_design are in units of sizes. With
+/* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation: in
+ * units of `within`, which counts 1e-6, where those of ves_design are in units of sizes. With
  * VES_WANT_PROOF the candidate is also measured at level 1, must agree within 1 %, must not violate a
  * constraint by 1 % of its size more, and must not cross itself (validity: self_intersection). The arrays of
  * verdict are the caller's, and ask->level does not matter to a proof. A candidate that fails is
@@ -89,9 +91,10 @@ typedef struct ves_design {
 ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_design *design);
 
 /* The largest relative difference between the measures and the objectives of two designs; NAN when one could
- * not be measured. A number that is 1e-9 of its natural size is the rounding of a zero and differs by nothing:
- * of a measure L^d, L the size of the shape that the plan began with and d the power of lengths that the
- * measure has, of the objective what its measures would make of it if they did not cancel. */
+ * not be measured. A number that is 1e-9 of its natural size is the rounding of a zero and differs by
+ * nothing: of a measure L^d, L the size of the shape that the plan began with and d the power of lengths that
+ * the measure has (none is known of measures in kg or s; in a file without units, 1 where there is no d), of
+ * the objective what its measures would make of it if they did not cancel. */
 double ves_plan_change(ves_plan *plan, const ves_design *a, const ves_design *b);
 
 /* After a positive answer `status`: a warning "what: ..." that says why, with the place when diag is the one
@@ -108,7 +111,8 @@ void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag 
  *
  * plan[workers]: one for each thread that may ask at once, all of one problem and one grid; the array and the
  * plans must outlive the search. A maximum is the minimum of the negative: result->value has the sign of a
- * verdict, ves_design.objective that of the file. Any member may be changed afterwards: search.start = mine. */
+ * verdict, ves_design.objective that of the file. Any member may be changed afterwards: search.start =
+ * mine. */
 ves_search_problem ves_plan_search(ves_plan **plan, int workers);
 
 /* What a PDE patch is made of; zero for other kinds. tail: at the design last evaluated. */
@@ -126,13 +130,13 @@ ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch);
 ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u, const double *v,
                            double *out);
 
-/* The spine of a PDE patch and its first two derivatives, of the design last evaluated, as above: out[(d * 3 + c) *
- * count + k]. VES_ABSENT: that patch has none; VES_MEMORY; VES_RANGE: no such patch. */
+/* The spine of a PDE patch and its first two derivatives, of the design last evaluated, as above:
+ * out[(d * 3 + c) * count + k]. VES_ABSENT: that patch has none; VES_MEMORY; VES_RANGE: no such patch. */
 ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u, double *out);
 
 /* The shape at x on nu x nv cells a patch (1 to 10000 and 3 to 10000, 2e7 in all; 0: chosen), for files,
- * pictures and meshes. Owned by the caller. A design that fails is drawn all the same, with a warning in diag,
- * as long as it has a shape: a positive status says that it has none (VES_NO_ROOT, VES_NO_BRACKET,
+ * pictures and meshes. Owned by the caller. A design that fails is drawn all the same, with a warning in
+ * diag, as long as it has a shape: a positive status says that it has none (VES_NO_ROOT, VES_NO_BRACKET,
  * VES_NO_SCALE, VES_NO_POINT) and *figure is NULL, as after VES_RANGE and VES_MEMORY. One that failed before
  * the factor of `scale:` was known is drawn in the size of its curves; the warning then says "not scaled". */
 ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_figure **figure,

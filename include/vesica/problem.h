@@ -32,7 +32,8 @@ typedef struct ves_read_options {
 } ves_read_options;
 
 /* Reads a file, or a text under a name (for messages). options NULL: none. Every error of the file is in
- * diag, not only the first; diag may be NULL. On failure the status is that of an error and *problem is NULL. */
+ * diag, not only the first; diag may be NULL. On failure the status is that of an error and *problem is
+ * NULL. */
 ves_status ves_problem_read(const char *path, const ves_read_options *options, ves_problem **problem,
                             ves_diag *diag);
 ves_status ves_problem_read_text(const char *name, const char *text, size_t length,

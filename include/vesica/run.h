@@ -1,7 +1,7 @@
 /* Run: from a problem to its best design and the folder that keeps it, as `vesica run` does: the grid is
- * chosen at the start design, the search of the file runs on `jobs` threads, and the best is measured again on
- * a grid twice as fine. When that changes it by more than 1e-6, the grid is chosen once more, at the best, and
- * the last polish of the search is repeated there on it, from all the optima and with what is left of the
+ * chosen at the start design, the search of the file runs on `jobs` threads, and the best is measured again
+ * on a grid twice as fine. When that changes it by more than 1e-6, the grid is chosen once more, at the best,
+ * and the last polish of the search is repeated there on it, from all the optima and with what is left of the
  * budget; a note tells it, or, where the file gives the grid, asks for no polish, or no budget is left, what
  * grid to give. A problem without variables is measured once.
  *

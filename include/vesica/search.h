@@ -1,6 +1,7 @@
 /* Search: minimise a callback over a box, with constraints. Knows no geometry and is usable by itself:
  *
- *     ves_search_problem problem = {.n = 2, .lower = lower, .upper = upper, .start = start, .evaluate = mine};
+ *     ves_search_problem problem = {
+ *         .n = 2, .lower = lower, .upper = upper, .start = start, .evaluate = mine};
  *     ves_search_options options = ves_search_options_default();
  *     ves_search_result *result;
  *     ves_status status = ves_search_run(&problem, &options, NULL, &result);
@@ -91,10 +92,10 @@ typedef struct ves_search_options {
     uint64_t seed; /* default: 1 */
 
     /* Budget of the whole search, never exceeded; 0: the sum of the stages, the start and 16 proofs. At most
-     * 2^53, like those of the stages. Proofs are evaluations like any other: an annealing asks for at most 16 and a tenth of its budget, a polish
-     * for at most 3; a twentieth of the whole, 1 to 16, is kept for the end, where the best and the optima
-     * are proved. A budget of 1 measures the start and proves nothing: the result is unproved, and counts as
-     * infeasible. */
+     * 2^53, like those of the stages. Proofs are evaluations like any other: an annealing asks for at most 16
+     * and a tenth of its budget, a polish for at most 3; a twentieth of the whole, 1 to 16, is kept for the
+     * end, where the best and the optima are proved. A budget of 1 measures the start and proves nothing: the
+     * result is unproved, and counts as infeasible. */
     long evaluations;
 } ves_search_options;
 
@@ -133,8 +134,8 @@ typedef struct ves_search_hooks {
 } ves_search_hooks;
 
 /* A distinct feasible end of the search: within 1e-3 of the ranges (variables that the objective does not
- * feel left out) of no better one, nor the `same` as one. With gradients an end where the slope has not vanished,
- * as at a kink, is one only as the best of all. */
+ * feel left out) of no better one, nor the `same` as one. With gradients an end where the slope has not
+ * vanished, as at a kink, is one only as the best of all. */
 typedef struct ves_optimum {
     const double *x;
     double value, violation; /* of a verdict; in a run those of a design */

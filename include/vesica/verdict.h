@@ -1,6 +1,6 @@
-/* Verdict: what one candidate is worth. One definition for every search, and one order of what it tells: the best
- * so far, the best, the list of optima. (On its way a search also weighs violations within the tolerance, so
- * that of two ends in one place it keeps the one that does not use the tolerance up.) */
+/* Verdict: what one candidate is worth. One definition for every search, and one order of what it tells: the
+ * best so far, the best, the list of optima. (On its way a search also weighs violations within the
+ * tolerance, so that of two ends in one place it keeps the one that does not use the tolerance up.) */
 #ifndef VESICA_VERDICT_H
 #define VESICA_VERDICT_H
 
@@ -45,7 +45,8 @@ typedef struct ves_verdict {
  * Returns true when a is strictly better than b. */
 bool ves_verdict_better(const ves_verdict *a, const ves_verdict *b, double tolerance);
 
-/* The one penalised energy: value + weight * (violation beyond tolerance); HUGE_VAL for a failed candidate. */
+/* The one penalised energy: value + weight * (violation beyond tolerance); HUGE_VAL for a failed
+ * candidate. */
 double ves_verdict_energy(const ves_verdict *verdict, double weight, double tolerance);
 
 #ifdef __cplusplus

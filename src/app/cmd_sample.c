@@ -59,10 +59,12 @@ static int values_check(app *a, const char *patch, const ves_points *p, const do
 {
     for (int k = 0; k < p->count; k++)
         for (int c = 0; c < 3; c++)
-            if (!isfinite(value[c * p->count + k]))
+            if (!isfinite(value[c * p->count + k])) {
+                const char axis = "xyz"[c];
                 return app_fail(a, VES_NO_POINT,
-                                "%c of patch \"%s\" is not a finite number at u = %.7g, v = %.7g", "xyz"[c],
-                                patch, p -> u[k], p -> v[k]);
+                                "%c of patch \"%s\" is not a finite number at u = %.7g, v = %.7g", axis,
+                                patch, p->u[k], p->v[k]);
+            }
     return APP_DONE;
 }
 

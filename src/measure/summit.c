@@ -5,8 +5,9 @@
 #include "base/vector.h"
 #include "measure/hill.h"
 
-/* Where a surface has no tangent plane at its end, nor the limit of one, one stays this far inside: on the finer
- * grid half as far, so that what grows without bound towards a tip differs there, and fails its proof. */
+/* Where a surface has no tangent plane at its end, nor the limit of one, one stays this far inside: on the
+ * finer grid half as far, so that what grows without bound towards a tip differs there, and fails its
+ * proof. */
 static const double INSIDE[2] = {1e-3, 0.5e-3};
 
 /* A stencil of 3 x 3 points shrinks from step to step, from a cell to the 512th part of one. What then is

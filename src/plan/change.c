@@ -28,8 +28,8 @@ static ves_status diagonal(ves_plan *plan, double *length)
     return VES_OK;
 }
 
-/* L^d for a measure in m^d; 0: what a number of other units would naturally be nobody knows. In a file without
- * units numbers are of the order of 1, or of what their degree says. */
+/* L^d for a measure in m^d; 0: what a number of other units would naturally be nobody knows. In a file
+ * without units numbers are of the order of 1, or of what their degree says. */
 static double natural_size(const ves_problem *p, const ves_measure_def *m, double length)
 {
     if (p->units) return m->dim.any || m->dim.kg || m->dim.s ? 0 : pow(length, m->dim.m / 6.);
@@ -59,7 +59,8 @@ double ves_plan_measure_change(const ves_plan *plan, int m, double a, double b)
     return relative(a, b, plan->natural[m]);
 }
 
-/* What the objective is made of: |df/dm| |m|, summed. Where they cancel all but their rounding, nothing is left. */
+/* What the objective is made of: |df/dm| |m|, summed. Where they cancel all but their rounding, nothing is
+ * left. */
 static double objective_size(ves_plan *plan, const ves_design *at)
 {
     const ves_problem *p = plan->problem;

@@ -37,8 +37,8 @@ static bool edge_make(const ves_plan *plan, int curve, int count, ves_arena *are
     return e->point && isfinite(e->size);
 }
 
-/* Steps s along a and t along b that close `apart` best, from the one line to the other; false: they are nearly
- * parallel. */
+/* Steps s along a and t along b that close `apart` best, from the one line to the other; false: they are
+ * nearly parallel. */
 static bool approach(const double a[3], const double b[3], const double apart[3], double *s, double *t)
 {
     double aa = ves_dot(a, a), bb = ves_dot(b, b), ab = ves_dot(a, b), d = aa * bb - ab * ab;

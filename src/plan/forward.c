@@ -94,11 +94,13 @@ static ves_status bracket_end(ves_plan *plan, const double *x, int index, bool u
 }
 
 /* Where a function that is continuous changes its sign it is small: h is exact to 4e-16 of it, so that even
- * a root's infinite slope, as of sqrt(h), leaves 2e-8. Across a jump or a pole it stays as large as it was. */
+ * a root's infinite slope, as of sqrt(h), leaves 2e-8. Across a jump or a pole it stays as large as it
+ * was. */
 static const double VANISHES = 1e-6;
 
 /* A bracketed root by inverse quadratic interpolation, secant or bisection (Brent 1973, ch. 4). It starts
- * from the whole bracket for every candidate: the same x gives the same bits whatever was evaluated before. */
+ * from the whole bracket for every candidate: the same x gives the same bits whatever was evaluated
+ * before. */
 static ves_status solve(ves_plan *plan, const double *x, int index, double *root)
 {
     double a, b, fa, fb;

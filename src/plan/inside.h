@@ -207,7 +207,8 @@ ves_status ves_lid_make(ves_figure_patch *f, int end, ves_arena *arena);
 ves_status ves_plan_face(ves_plan *plan);
 bool ves_plan_nested(const ves_plan *plan, const ves_figure *figure, int *corner);
 
-/* change.c: the natural size of each measure, at the design that is bound; and how two of its values differ. */
+/* change.c: the natural size of each measure, at the design that is bound; and how two of its values
+ * differ. */
 ves_status ves_plan_sizes(ves_plan *plan);
 double ves_plan_measure_change(const ves_plan *plan, int m, double a, double b);
 

@@ -1,4 +1,5 @@
-/* Levels: the sites that all measures of a problem together read on one grid, and which measure reads which. */
+/* Levels: the sites that all measures of a problem together read on one grid, and which measure reads
+ * which. */
 #include "base/vector.h"
 #include "plan/inside.h"
 
@@ -203,7 +204,8 @@ void ves_plan_level_face(ves_plan *plan, int index)
 
 static ves_status edge_add(ves_plan *plan, plan_level *l, int patch, const ves_grid *along, int *index)
 {
-    plan_site *s = &l->site[ *index = l->sites++];
+    *index = l->sites++;
+    plan_site *s = &l->site[*index];
     *s = (plan_site){.patch = patch, .curve = -1, .samples.site = VES_SITE_SURFACE};
     VES_TRY(
         ves_grid_given(along->nu, along->u, along->nv, along->v, along->periodic, &plan->arena, &s->grid));

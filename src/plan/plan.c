@@ -254,10 +254,12 @@ static bool in_range(int count, int most)
     return count == 0 || (count >= VES_NODES_LEAST && count <= most);
 }
 
+/* A number that is left to be chosen counts with the most that may be. */
 static bool is_grid(const ves_problem *problem, const int q[2])
 {
+    int u = q[0] ? q[0] : VES_CHOSEN_U, v = q[1] ? q[1] : VES_CHOSEN_V;
     return in_range(q[0], VES_NODES_U) && in_range(q[1], VES_NODES_V) &&
-           (double)q[0] * q[1] <= ves_nodes_most(problem->patches);
+           (double)u * v <= ves_nodes_most(problem->patches);
 }
 
 static ves_status refuse(const ves_problem *problem, const int q[2], ves_diag *diag)
@@ -278,9 +280,9 @@ ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *o
     double change = NAN;
     *out = NULL;
     if (options) memcpy(q, options->quadrature, sizeof q);
-    if (!is_grid(problem, q)) return refuse(problem, q, diag);
     for (int d = 0; d < 2; d++)
         if (q[d] == 0) q[d] = problem->quadrature[d];
+    if (!is_grid(problem, q)) return refuse(problem, q, diag);
     if (q[0] == 0 || q[1] == 0) {
         /* it makes many plans; of what fails, but for memory, the one that is used will speak */
         if (ves_plan_choose(problem, NULL, chosen, &change) == VES_MEMORY)
@@ -288,7 +290,6 @@ ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *o
         for (int d = 0; d < 2; d++)
             if (q[d] == 0) q[d] = chosen[d];
     }
-    if (!is_grid(problem, q)) return refuse(problem, q, diag);
     VES_TRY(ves_plan_make(problem, q, out, diag));
     (*out)->change = change;
     return VES_OK;

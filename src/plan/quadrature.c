@@ -33,7 +33,8 @@ static double change_between(const ves_plan *plan, const double *a, const double
     return worst;
 }
 
-/* Fewer nodes than this cannot see the modes that are solved: their products would be taken for slower ones. */
+/* Fewer nodes than this cannot see the modes that are solved: their products would be taken for slower
+ * ones. */
 static int resolving(const ves_plan *plan)
 {
     int modes = 0;
@@ -44,8 +45,8 @@ static int resolving(const ves_plan *plan)
 }
 
 /* Refines one direction until two refinements in a row change nothing: one alone may be fooled by symmetry.
- * Where something still changes beyond the last grid that may be chosen, that one is. left: the largest change
- * seen from the grid chosen. */
+ * Where something still changes beyond the last grid that may be chosen, that one is. left: the largest
+ * change seen last, from the grid chosen or, where nothing was calm, from the one before it. */
 static ves_status refine(const ves_plan *plan, const double *x, int d, int grid[2], double *left,
                          double *value)
 {

@@ -252,7 +252,8 @@ static ves_status formless(const ves_tile *tile, const ves_tile_planes *field)
     return isfinite(sum) ? VES_DEGENERATE : VES_NO_POINT;
 }
 
-/* What a gradient needs of a chart is prepared with it, but of a look, which moves, when it has come to rest. */
+/* What a gradient needs of a chart is prepared with it, but of a look, which moves, when it has come to
+ * rest. */
 static ves_status site_fill(ves_plan *plan, plan_site *s, unsigned needs, bool gradient)
 {
     bool keep = s->varies && (gradient || s->looked);
@@ -269,7 +270,7 @@ static ves_status site_fill(ves_plan *plan, plan_site *s, unsigned needs, bool g
         if (needs & FORM_NEEDS) {
             const ves_tile_planes *of = at_pole ? unfolded(plan, tile, pole, field) : field;
             ves_status status = forms_sample(plan, s, tile, of, needs);
-            if (status != VES_OK) worst = formless(tile, field);
+            if (status != VES_OK && worst != VES_NO_POINT) worst = formless(tile, field);
         }
     }
     if (looks_at_points(plan, s, needs) && !finite_points(s)) return VES_NO_POINT;
@@ -360,7 +361,8 @@ static void form_adjoint_take(const plan_site *s, const ves_tile *tile, ves_form
     tile_take(tile, s->adjoint.K, NULL, false, form->at[VES_FORM_K]);
 }
 
-/* The adjoint of the fields of one tile: what flows back through the forms, and what measures gave directly. */
+/* The adjoint of the fields of one tile: what flows back through the forms, and what measures gave
+ * directly. */
 static void adjoint_make(ves_plan *plan, plan_site *s, ves_tile *tile, const ves_tile_planes *field)
 {
     ves_tile_planes *to = plan->field_adjoint;

@@ -16,18 +16,19 @@ static const char *kind_of(double value)
     return isnan(value) ? "not a number" : "infinite";
 }
 
-static void outside_tell(const ves_plan *plan, const char *what, ves_diag *diag)
+static bool outside_tell(const ves_plan *plan, const char *what, ves_diag *diag)
 {
     const ves_problem *p = plan->problem;
     const ves_limit *l = ves_plan_limit(plan);
     char limit[96], got[VES_QUANTITY], root[VES_QUANTITY];
-    if (!l) return;
+    if (!l) return false; /* a plugin's own word */
     ves_limit_text(l->low, l->high, limit);
     ves_quantity_text(plan->block[l->number], l->dim, p->units, got);
     if (p->solve) ves_quantity_text(plan->block[p->variables], p->solve->dim, p->units, root);
     ves_diag_add(diag, VES_WARNING, VES_OUTSIDE, l->mark, "%s: \"%s\" must be %s, got %s%s%s%s%s", what,
                  l->key, limit, got, p->solve ? ", with " : "", p->solve ? p->solve->name : "",
                  p->solve ? " = " : "", p->solve ? root : "");
+    return true;
 }
 
 /* --- points --- */
@@ -40,9 +41,10 @@ static void spot_tell(const ves_plan *plan, ves_severity severity, const spot *a
     bool own = d->kind == VES_PATCH_FORMULA;
     double u = own ? d->u_range[0] + (d->u_range[1] - d->u_range[0]) * at->u : at->u,
            v = own ? d->v_range[0] + (d->v_range[1] - d->v_range[0]) / VES_TWO_PI * at->v : at->v;
+    const char axis = "xyz"[at->c];
     ves_diag_add(diag, severity, VES_NO_POINT, d->mark,
-                 "%s: %c of patch \"%s\" is not a finite number (at u = %.4g, v = %.4g)", what, "xyz"[at->c],
-                 d -> name, u, v);
+                 "%s: %c of patch \"%s\" is not a finite number (at u = %.4g, v = %.4g)", what, axis, d->name,
+                 u, v);
 }
 
 static bool spot_at(const ves_plan *plan, double *room, spot *at)
@@ -140,10 +142,12 @@ static bool number_tell(ves_plan *plan, const char *what, ves_diag *diag)
     double left = p->solve ? ves_plan_formula(plan, p->solve->left) : 0,
            right = p->solve ? ves_plan_formula(plan, p->solve->right) : 0;
     if (!isfinite(left - right)) {
+        char root[VES_QUANTITY];
+        ves_quantity_text(plan->block[p->variables], p->solve->dim, p->units, root);
         ves_diag_add(diag, VES_WARNING, VES_NO_NUMBER, p->solve->mark,
-                     "%s: the %s side of the equation is %s where %s = %.4g", what,
+                     "%s: the %s side of the equation is %s where %s = %s", what,
                      isfinite(left) ? "right" : "left", kind_of(isfinite(left) ? right : left),
-                     p->solve->name, plan->block[p->variables] / p->solve->shown.factor);
+                     p->solve->name, root);
         return true;
     }
     for (int k = 0; k < p->constraints; k++) {
@@ -164,10 +168,7 @@ void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag 
 {
     spot at;
     if (status <= VES_OK) return;
-    if (status == VES_OUTSIDE) {
-        outside_tell(plan, what, diag);
-        return;
-    }
+    if (status == VES_OUTSIDE && outside_tell(plan, what, diag)) return;
     if (status == VES_NO_POINT && spot_find(plan, &at)) {
         spot_tell(plan, VES_WARNING, &at, what, diag);
         return;

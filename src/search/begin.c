@@ -102,7 +102,8 @@ static ves_status others(ves_session *session, ves_asker *asker)
     return VES_OK;
 }
 
-/* Where the start fails the best of the others stands for it or, when there is none, what a look round finds. */
+/* Where the start fails the best of the others stands for it or, when there is none, what a look round
+ * finds. */
 static ves_status elsewhere(ves_session *session, ves_asker *asker, ves_point *start)
 {
     if (session->ends) {

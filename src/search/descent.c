@@ -3,9 +3,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Scaling is what decides whether SQP works: F = (f - f_0) / max_i |df/du_i|, u in the unit box, c / max(|c_0|,
- * max_i |dc/du_i|): a constraint may be told in any units, if only its tolerance is told in them too. What
- * NLopt returns is not looked at but for the reason: the best is what we have seen ourselves. */
+/* Scaling is what decides whether SQP works: F = (f - f_0) / max_i |df/du_i|, u in the unit box, c /
+ * max(|c_0|, max_i |dc/du_i|): a constraint may be told in any units, if only its tolerance is told in them
+ * too. What NLopt returns is not looked at but for the reason: the best is what we have seen ourselves. */
 
 enum { RESTARTS = 5, CHOICES = 3 };
 
@@ -417,7 +417,8 @@ static void resize(ves_descent *d)
         d->size[j] = fmax(fmax(ves_descent_slope(d, j), fabs(d->last.constraint[j])), d->session->tolerance);
 }
 
-/* Scales f at u. A restart near a minimum keeps a part of the first scale: there the slopes are all but gone. */
+/* Scales f at u. A restart near a minimum keeps a part of the first scale: there the slopes are all but
+ * gone. */
 static ves_status rescale(ves_descent *d, const double *u, bool first)
 {
     bool slopes = d->recipe.gradient || (first && d->budget - d->used > 10L * d->session->n);
@@ -501,8 +502,8 @@ static ves_status descend(ves_descent *d, const ves_point *from, bool first, dou
     return d->lost && status == VES_NO_NUMBER ? VES_OK : status;
 }
 
-/* Where a run ended some constraint that was put off may not hold: then the next one, which is due, begins there
- * and sees to it first; after some of these the augmented Lagrangian holds all. */
+/* Where a run ended some constraint that was put off may not hold: then the next one, which is due, begins
+ * there and sees to it first; after some of these the augmented Lagrangian holds all. */
 static ves_status look_back(ves_descent *d, bool *due)
 {
     bool off = false;

@@ -94,8 +94,8 @@ void ves_descent_keep(const ves_descent *descent, ves_point *point);
  * gradients. */
 ves_status ves_descent_minimise(ves_descent *descent, double step, double factor);
 
-/* rows.c: puts off (VES_HOLD_LATER) those of the constraints that NLopt sees which depend, where the descent has
- * just looked, on equations that it keeps. Is one of them violated where it has just looked? */
+/* rows.c: puts off (VES_HOLD_LATER) those of the constraints that NLopt sees which depend, where the descent
+ * has just looked, on equations that it keeps. Is one of them violated where it has just looked? */
 void ves_rows_choose(ves_descent *descent);
 bool ves_rows_owing(const ves_descent *descent);
 

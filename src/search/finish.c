@@ -83,8 +83,8 @@ static long spare(const ves_session *session)
     return session->budget - session->evaluations;
 }
 
-/* Puts one end into the cluster that it belongs to, or into a new one when it is feasible, proved and an end by
- * its slope. */
+/* Puts one end into the cluster that it belongs to, or into a new one when it is feasible, proved and an end
+ * by its slope. */
 static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_point *point)
 {
     ves_session *session = asker->session;
@@ -114,8 +114,8 @@ static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_
     return VES_OK;
 }
 
-/* What stands for an optimum was chosen with a price on violations; among optima, which are all feasible, only
- * the value counts. */
+/* What stands for an optimum was chosen with a price on violations; among optima, which are all feasible,
+ * only the value counts. */
 static void cluster_order(clusters *c, double tolerance)
 {
     for (int i = 1; i < c->count; i++) {

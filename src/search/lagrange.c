@@ -14,8 +14,8 @@ enum { ROUNDS = 40 };
 
 static const double first_penalty = 10, most_penalty = 1e8, faster = 10, enough = 0.3;
 
-/* mma and ccsa model L by diagonal quadratics, and end to the root of rounding, the worse the steeper it is: what
- * they leave, up to so many times what counts as rounding, does not fall for a penalty beyond. */
+/* mma and ccsa model L by diagonal quadratics, and end to the root of rounding, the worse the steeper it is:
+ * what they leave, up to so many times what counts as rounding, does not fall for a penalty beyond. */
 static const double blurred = 1e4, blurred_penalty = 1e4;
 
 static bool held(const ves_descent *d, int j)

@@ -5,9 +5,9 @@
 /* SQP solves for all equations at once, which has no answer where their gradients depend on each other or
  * vanish, though the equations may well agree: an area said twice, or one that scale: has already met. So a
  * descent follows as many as are independent where it begins, and looks at the others where it ends. Gram-
- * Schmidt on the unit gradients in the unit box, the one that sticks out most next (Golub and Van Loan, 5.4.2);
- * violated equations come first. An inequality that these equations imply, to first order, is put off like an
- * equation: rounding would make it contradict them.
+ * Schmidt on the unit gradients in the unit box, the one that sticks out most next (Golub and Van Loan,
+ * 5.4.2); violated equations come first. An inequality that these equations imply, to first order, is put off
+ * like an equation: rounding would make it contradict them.
  * test  repeated, proportional, implied and empty equations; more of them than variables */
 
 /* What sticks out of the others' span: for exact slopes, and for differences, whose noise is 1e-8. */

@@ -126,8 +126,8 @@ static int wrong(const ves_saddle *s, const ves_descent *d)
     return worst;
 }
 
-/* Of the inequalities that went, the one that the way down, against the slope, would violate most; its place in
- * touched, or -1. */
+/* Of the inequalities that went, the one that the way down, against the slope, would violate most; its place
+ * in touched, or -1. */
 static int missed(ves_saddle *s, const ves_descent *d, int rows)
 {
     int n = d->session->n, worst = -1;
@@ -149,8 +149,8 @@ static int missed(ves_saddle *s, const ves_descent *d, int rows)
 }
 
 /* Multipliers that are not negative, as of non-negative least squares (Lawson and Hanson 1974, ch. 23). A row
- * that depended on one that pulls the wrong way comes back when that one goes: of two opposite inequalities, an
- * equation in two words, one always stays. */
+ * that depended on one that pulls the wrong way comes back when that one goes: of two opposite inequalities,
+ * an equation in two words, one always stays. */
 static void multipliers(ves_saddle *s, const ves_descent *d)
 {
     int rows = 0;
@@ -311,9 +311,9 @@ static bool runs(const ves_saddle *s, const ves_descent *d)
     return most > steep * d->first_scale;
 }
 
-/* Three scales of a slope, as each may be small of itself: a descent may start at its end, an objective may be 0,
- * a step may be shorter than the descent cares for. Descents of smooth objectives ended below a thirtieth of the
- * first and a fiftieth of the second; at kinks the slope was 400 and 200 times these. */
+/* Three scales of a slope, as each may be small of itself: a descent may start at its end, an objective may
+ * be 0, a step may be shorter than the descent cares for. Descents of smooth objectives ended below a
+ * thirtieth of the first and a fiftieth of the second; at kinks the slope was 400 and 200 times these. */
 static bool stalls(const ves_saddle *s, const ves_descent *d)
 {
     double most = 0;

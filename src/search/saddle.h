@@ -1,4 +1,5 @@
-/* Second-order check at the end of a descent with gradients: is it a minimum or a saddle, and which way down. */
+/* Second-order check at the end of a descent with gradients: is it a minimum or a saddle, and which way
+ * down. */
 #ifndef VES_SEARCH_SADDLE_H
 #define VES_SEARCH_SADDLE_H
 
@@ -33,8 +34,8 @@ typedef struct ves_saddle {
 
 bool ves_saddle_create(ves_saddle *saddle, ves_session *session);
 
-/* negative: the point is stationary, and there is a direction of negative curvature at it, clear of the noise of
- * the differences, that some feasible way follows. */
+/* negative: the point is stationary, and there is a direction of negative curvature at it, clear of the noise
+ * of the differences, that some feasible way follows. */
 ves_status ves_saddle_check(ves_saddle *saddle, ves_descent *descent, const ves_point *point, bool *negative);
 
 /* Steps along it, both ways where both are open; [0] and [1] are lower than the saddle when found[k]. */

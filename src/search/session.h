@@ -103,8 +103,8 @@ bool ves_session_over(ves_session *session);
 long ves_session_left(const ves_session *session); /* evaluations, but for those kept for the end */
 bool ves_session_equality(const ves_session *session, int j); /* is constraint j one */
 
-/* The order while a search runs: that of verdicts, with a price on violations that are within the tolerance but
- * more than rounding, else the best would always be the one that uses the tolerance up. */
+/* The order while a search runs: that of verdicts, with a price on violations that are within the tolerance
+ * but more than rounding, else the best would always be the one that uses the tolerance up. */
 bool ves_session_better(const ves_session *session, const ves_verdict *a, const ves_verdict *b);
 bool ves_session_better_at(const ves_session *session, const double *price, const ves_verdict *a,
                            const ves_verdict *b);

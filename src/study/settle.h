@@ -6,8 +6,8 @@
 #include "base/arena.h"
 #include "vesica/run.h"
 
-/* The grid that the best of a run asks for, nowhere coarser than its own. change: what the choice left. Returns
- * VES_OK or a fault. */
+/* The grid that the best of a run asks for, nowhere coarser than its own. change: what the choice left.
+ * Returns VES_OK or a fault. */
 ves_status ves_settle_grid(const ves_run *run, int grid[2], double *change);
 
 /* The last polish of a search, alone, with what is left of its budget. false: it has none, or there is not
@@ -15,8 +15,8 @@ ves_status ves_settle_grid(const ves_run *run, int grid[2], double *change);
 bool ves_settle_search(const ves_search_options *search, const ves_run *run, long left,
                        ves_search_options *again);
 
-/* The optima of a run that were polished once more were found as often as the old ones, of the coarser grid, from
- * which they come. */
+/* The optima of a run that were polished once more were found as often as the old ones, of the coarser grid,
+ * from which they come. */
 ves_status ves_settle_hits(const ves_optimum *old, int count, ves_arena *arena, ves_run *run);
 
 #endif

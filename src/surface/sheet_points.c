@@ -28,8 +28,8 @@ static double right_side(int k, int c)
     return abs(k - c) > 1 ? 0 : k == c ? -12 : 6;
 }
 
-/* The right side is 6 times what [1 4 1] makes of y, less 36 y: m = 6 y - 36 G y, where the inverse of the cyclic
- * [1 4 1] is G_j = (z^j + z^(n-j)) / ((1 - z^n) 2 sqrt(3)), z = sqrt(3) - 2. */
+/* The right side is 6 times what [1 4 1] makes of y, less 36 y: m = 6 y - 36 G y, where the inverse of the
+ * cyclic [1 4 1] is G_j = (z^j + z^(n-j)) / ((1 - z^n) 2 sqrt(3)), z = sqrt(3) - 2. */
 static void closed_moments(spline *s)
 {
     int n = s->knots;
@@ -41,8 +41,9 @@ static void closed_moments(spline *s)
         }
 }
 
-/* Not-a-knot ends: the third derivative goes on through the second knot, m_0 - 2 m_1 + m_2 = 0, so that 6 m_1 is
- * its right side; between m_1 and m_{n-2} Thomas's elimination. Two knots make a line, three a parabola. */
+/* Not-a-knot ends: the third derivative goes on through the second knot, m_0 - 2 m_1 + m_2 = 0, so that 6 m_1
+ * is its right side; between m_1 and m_{n-2} Thomas's elimination. Two knots make a line, three a
+ * parabola. */
 static void open_moments(spline *s, double *up)
 {
     int n = s->knots, last = n - 2;
