@@ -34,4 +34,15 @@ static inline void bed_clear(bed *b)
     ves_diag_destroy(b->diag);
 }
 
+/* The objective at x, which must be measurable; four constraints at most. */
+static inline double value_at(const bed *b, const double *x)
+{
+    double constraint[4];
+    ves_verdict verdict = {.constraint = constraint};
+    ves_ask ask = {.x = x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+    cr_assert_eq(ves_plan_evaluate(b->plan, &ask, &verdict), VES_OK);
+    cr_assert_eq(verdict.status, VES_OK, "%s", ves_status_text(verdict.status));
+    return verdict.value;
+}
+
 #endif

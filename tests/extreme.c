@@ -253,16 +253,6 @@ Test(extreme, the_value_does_not_jump_where_one_hill_overtakes_another)
 
 /* --- gradients --- */
 
-static double value_at(const bed *b, const double *x)
-{
-    double constraint[4];
-    ves_verdict verdict = {.constraint = constraint};
-    ves_ask ask = {.x = x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
-    cr_assert_eq(ves_plan_evaluate(b->plan, &ask, &verdict), VES_OK);
-    cr_assert_eq(verdict.status, VES_OK, "%s", ves_status_text(verdict.status));
-    return verdict.value;
-}
-
 /* Differences of fourth order, h = 1e-3: truncation h^4 times fifth derivatives up to 1e3. The gradient
  * itself is off by the way that is left to the summit, 1e-7 of a cell. */
 static void check_gradient(const char *text, const ves_measure *const *plugin, const double *x, int n)

@@ -58,16 +58,6 @@ static const ves_measure PROBE = {.name = "probe",
                                   .gradient = gradient};
 static const ves_measure *const PLUGIN[] = {&PROBE, NULL};
 
-static double value_at(const bed *b, const double *x)
-{
-    double constraint[4];
-    ves_verdict verdict = {.constraint = constraint};
-    ves_ask ask = {.x = x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
-    cr_assert_eq(ves_plan_evaluate(b->plan, &ask, &verdict), VES_OK);
-    cr_assert_eq(verdict.status, VES_OK, "%s", ves_status_text(verdict.status));
-    return verdict.value;
-}
-
 /* Differences of fourth order, h = 1e-3: truncation h^4 times fifth derivatives up to 1e4. */
 static void check_gradient(const bed *b, const double *x, int n, double tolerance)
 {

@@ -7,13 +7,6 @@
 
 #pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
 
-static const char *noted(const ves_search_result *r, const char *word)
-{
-    for (int k = 0; k < r->notes; k++)
-        if (strstr(r->note[k], word)) return r->note[k];
-    return NULL;
-}
-
 /* A linear objective over planes that all pass through 0, which is a minimum: the objective's slope is a sum of
  * theirs with weights >= 0 (Farkas). Smooth, though more planes meet there than there are variables. */
 enum { SIDES = 5, PLANES = 12 };

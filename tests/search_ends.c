@@ -7,13 +7,6 @@
 
 #pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
 
-static const char *noted(const ves_search_result *r, const char *word)
-{
-    for (int k = 0; k < r->notes; k++)
-        if (strstr(r->note[k], word)) return r->note[k];
-    return NULL;
-}
-
 /* ---- an equation written as two opposite inequalities ---- */
 
 /* f = x^2 - 3 y^2 on y = 0.5: a minimum, though f has negative curvature across the line. `swap`: which comes

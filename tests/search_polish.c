@@ -186,13 +186,6 @@ static ves_status saddle(void *data, int worker, const ves_ask *ask, ves_verdict
     return VES_OK;
 }
 
-static bool noted(const ves_search_result *r, const char *word)
-{
-    for (int k = 0; k < r->notes; k++)
-        if (strstr(r->note[k], word)) return true;
-    return false;
-}
-
 Test(polish, a_saddle_is_left_both_ways)
 {
     given g = {

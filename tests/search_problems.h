@@ -40,6 +40,14 @@ static inline ves_status run(const given *g, const ves_search_options *options, 
     return ves_search_run(&problem, options, hooks, result);
 }
 
+/* The first note with the word in it, or NULL. */
+static inline const char *noted(const ves_search_result *r, const char *word)
+{
+    for (int k = 0; k < r->notes; k++)
+        if (strstr(r->note[k], word)) return r->note[k];
+    return NULL;
+}
+
 static inline ves_search_options only_polish(const char *algorithm)
 {
     ves_search_options o = ves_search_options_default();

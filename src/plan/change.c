@@ -1,5 +1,4 @@
 /* Change: by how much two designs differ, relative to their numbers; whatever the size of the shape is. */
-#include "base/vector.h"
 #include "plan/inside.h"
 
 #include <math.h>
@@ -14,10 +13,7 @@ enum { ALONG = 3, AROUND = 8, POINTS = ALONG * AROUND, PLANES = 3 * VES_FIELDS }
 static ves_status diagonal(ves_plan *plan, double *length)
 {
     double u[POINTS], v[POINTS], X[PLANES * POINTS], low[3], high[3];
-    for (int k = 0; k < POINTS; k++) {
-        u[k] = (double)(k / AROUND) / (ALONG - 1);
-        v[k] = VES_TWO_PI * (k % AROUND) / AROUND;
-    }
+    ves_plan_lattice(ALONG, AROUND, u, v);
     for (int c = 0; c < 3; c++) low[c] = HUGE_VAL, high[c] = -HUGE_VAL;
     for (int p = 0; p < plan->problem->patches; p++) {
         VES_TRY(ves_plan_points(plan, p, POINTS, u, v, X));

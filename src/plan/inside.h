@@ -207,6 +207,9 @@ ves_status ves_lid_make(ves_figure_patch *f, int end, ves_arena *arena);
 ves_status ves_plan_face(ves_plan *plan);
 bool ves_plan_nested(const ves_plan *plan, const ves_figure *figure, int *corner);
 
+/* plan.c: places for ves_plan_points, [along * around]: from end to end, and round without meeting. */
+void ves_plan_lattice(int along, int around, double *u, double *v);
+
 /* change.c: the natural size of each measure, at the design that is bound; and how two of its values
  * differ. */
 ves_status ves_plan_sizes(ves_plan *plan);

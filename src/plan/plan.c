@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "base/vector.h"
 #include "plan/inside.h"
 
 /* --- what each program runs --- */
@@ -325,6 +326,14 @@ ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch)
     const ves_patch *p = plan->patch[patch];
     return (ves_patch_facts){
         .band = ves_patch_band(p), .modes = ves_patch_modes(p), .tail = ves_patch_tail(p)};
+}
+
+void ves_plan_lattice(int along, int around, double *u, double *v)
+{
+    for (int k = 0; k < along * around; k++) {
+        u[k] = (double)(k / around) / (along - 1);
+        v[k] = VES_TWO_PI * (k % around) / around;
+    }
 }
 
 ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u, const double *v,

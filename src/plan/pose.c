@@ -1,5 +1,4 @@
 /* Pose: the problem as a search sees it. */
-#include "base/vector.h"
 #include "plan/inside.h"
 
 #include <math.h>
@@ -42,10 +41,7 @@ ves_status ves_plan_pose(ves_plan *plan)
 static ves_status shape_take(ves_plan *plan, const double *x, double *X)
 {
     double u[NODES], v[NODES];
-    for (int k = 0; k < NODES; k++) {
-        u[k] = (double)(k / AROUND) / (ALONG - 1);
-        v[k] = VES_TWO_PI * (k % AROUND) / AROUND;
-    }
+    ves_plan_lattice(ALONG, AROUND, u, v);
     VES_TRY(ves_plan_forward(plan, x, 0, PROGRAM_JUDGE, false));
     for (int k = 0; k < plan->problem->patches; k++, X += 3 * NODES) {
         VES_TRY(ves_plan_points(plan, k, NODES, u, v, plan->planes));

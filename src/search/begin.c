@@ -102,6 +102,11 @@ static ves_status others(ves_session *session, ves_asker *asker)
     return VES_OK;
 }
 
+static void start_at(ves_session *session)
+{
+    ves_point_copy(&session->end[session->ends++].point, &session->start, session->n, session->m);
+}
+
 /* Where the start fails the best of the others stands for it or, when there is none, what a look round
  * finds. */
 static ves_status elsewhere(ves_session *session, ves_asker *asker, ves_point *start)
@@ -111,8 +116,7 @@ static ves_status elsewhere(ves_session *session, ves_asker *asker, ves_point *s
         return VES_OK;
     }
     VES_TRY(look(session, asker, start));
-    if (start->verdict.status == VES_OK)
-        ves_point_copy(&session->end[session->ends++].point, start, session->n, session->m);
+    if (start->verdict.status == VES_OK) start_at(session);
     return VES_OK;
 }
 
@@ -126,8 +130,7 @@ ves_status ves_search_begin(ves_session *session)
     ves_asker asker;
     ves_asker_init(&asker, session, 0);
     ves_status status = judge(&asker, start, true);
-    if (start->verdict.status == VES_OK)
-        ves_point_copy(&session->end[session->ends++].point, start, session->n, session->m);
+    if (start->verdict.status == VES_OK) start_at(session);
     if (status == VES_OK) status = others(session, &asker);
     if (status == VES_OK && start->verdict.status != VES_OK) status = elsewhere(session, &asker, start);
     ves_asker_flush(&asker);
