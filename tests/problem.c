@@ -113,10 +113,11 @@ Test(problem, the_book_example_is_read_as_it_stands)
     const ves_patch_def *wall = &p->patch[0];
     const ves_condition *last = &wall->condition[3];
     cr_expect(wall->power == 2 && wall->conditions == 4 && last->derivative == 1 && last->u == 1);
-    cr_expect(last->from == curve_index(p, "d2") && last->curve == curve_index(p, "p2"));
+    cr_expect(last->shares == 2 && last->share[1].curve == curve_index(p, "d2") &&
+              last->share[0].curve == curve_index(p, "p2"));
     expect_number(block[last->scale], 2, "scale");
-    expect_number(block[wall->a], 0.5, "a");
-    cr_expect(wall->condition[0].scale == -1 && wall->condition[0].from == -1);
+    expect_number(block[wall->parameter[0]], 0.5, "a");
+    cr_expect(wall->condition[0].scale == -1 && wall->condition[0].shares == 1);
     cr_expect(p->measures == 2 && p->constraints == 1 && p->constraint[0].relation == VES_AT_MOST);
     cr_expect(!strcmp(p->constraint[0].text, "area <= 14") && p->constraint[0].within == 1e-6);
     cr_expect(p->search.stages == 2 && p->search.stage[0].anneal.evaluations == 20000);
@@ -140,7 +141,7 @@ Test(problem, parameters_come_in_any_order_and_their_slots_after_what_they_read)
     expect_number(p->variable[0].max, 20, "max");
     expect_number(parameter_value(p, block, "e"), 9, "e");
     expect_number(parameter_value(p, block, "top"), 14, "top");
-    expect_number(block[p->patch[0].a], 14, "a");
+    expect_number(block[p->patch[0].parameter[0]], 14, "a");
     int first = p->variables + p->unknowns;
     for (int k = 0; k < p->parameters; k++) {
         for (int i = first + k; i < p->slots; i++)

@@ -28,6 +28,8 @@ extern "C" {
     X(NO_BRACKET, 13, "the equation to solve cannot be measured at the ends of solve.in, nor near them")     \
     X(NO_POINT, 14, "a coordinate of the surface is not a finite number")                                    \
     X(NO_SCALE, 15, "no size of the shape meets the scale equation")                                         \
+    X(NOT_ELLIPTIC, 16, "the operator of a patch is not elliptic")                                           \
+    X(UNDETERMINED, 17, "the conditions of a patch do not determine one of its modes")                       \
     X(SYNTAX, -1, "the text cannot be read")                                                                 \
     X(NAME, -2, "a name is not known")                                                                       \
     X(UNIT, -3, "a dimension does not fit")                                                                  \

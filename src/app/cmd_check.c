@@ -62,7 +62,12 @@ static const char *kind_of(const ves_patch_def *p)
 {
     if (p->kind == VES_PATCH_FORMULA) return "formula";
     if (p->kind == VES_PATCH_POINTS) return "points";
-    return p->power == 1 ? "PDE, order 2" : "PDE, order 4";
+    static const char *const order[] = {"PDE, order 2",  "PDE, order 4",  "PDE, order 6",  "PDE, order 8",
+                                        "PDE, order 10", "PDE, order 12", "PDE, order 14", "PDE, order 16",
+                                        "PDE, order 18", "PDE, order 20", "PDE, order 22", "PDE, order 24",
+                                        "PDE, order 26", "PDE, order 28", "PDE, order 30", "PDE, order 32",
+                                        "PDE, order 34", "PDE, order 36", "PDE, order 38", "PDE, order 40"};
+    return order[p->power - 1];
 }
 
 static void patches(const checked *c)

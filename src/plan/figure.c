@@ -58,7 +58,7 @@ static ves_status rows_sample(ves_plan *plan, ves_figure *figure, int k, visit *
     if (!grid) return VES_MEMORY;
     VES_TRY(grid_make(figure, f, rows, grid));
     VES_TRY(ves_chart_create(plan->patch[k], grid, fields, &figure->arena, &chart));
-    ves_chart_prepare(chart, &plan->bound, false);
+    VES_TRY(ves_chart_prepare(chart, &plan->bound, false));
     int tiles = ves_tile_count(grid);
     for (int t = 0; t < tiles; t++) {
         ves_tile tile;

@@ -60,6 +60,7 @@ ves_status ves_plan_run(ves_plan *plan, int index, plan_program which, bool grad
 {
     plan->numberless = -1;
     if (ves_plan_limit(plan)) return VES_OUTSIDE;
+    for (int k = 0; k < plan->problem->patches; k++) VES_TRY(ves_patch_status(plan->patch[k]));
     VES_TRY(scale(plan, index, gradient));
     VES_TRY(sample(plan, index, which, gradient));
     return measure(plan, index, which);

@@ -188,6 +188,9 @@ ves_status ves_sheet_look(const ves_plan *plan, int patch, plan_sheet *found);
 bool ves_sheet_one_sided(const plan_sheet *sheet);
 ves_status ves_plan_sheets(ves_plan *plan, ves_diag *diag);
 
+/* conditions.c: refuses conditions that determine no surface, warns of those that amplify */
+ves_status ves_plan_conditions(const ves_plan *plan, int patch, ves_diag *diag);
+
 /* orient.c: shared curves -> sides and closedness */
 ves_status ves_plan_orient(ves_plan *plan, ves_diag *diag);
 bool ves_end_is_pole(const ves_plan *plan, int patch, int end);

@@ -20,7 +20,8 @@ int ves_end_curve(const ves_plan *plan, int patch, int end)
 {
     const ves_patch_def *p = def(plan, patch);
     for (int k = 0; p->kind == VES_PATCH_PDE && k < p->conditions; k++)
-        if (p->condition[k].u == end && p->condition[k].derivative == 0) return p->condition[k].curve;
+        if (p->condition[k].u == end && p->condition[k].derivative == 0)
+            return p->condition[k].share[0].curve;
     return -1;
 }
 

@@ -134,6 +134,31 @@ static void block_fill(ves_plan *plan, bool middle, double *block)
         block[p->slots + k] = ves_formula_eval(p->number[k], block, NULL, plan->formula_room);
 }
 
+/* The patch of a file, as the surface room wants it. */
+static ves_status pde_define(const ves_patch_def *d, ves_arena *arena, ves_pde *pde)
+{
+    static const ves_spine_kind SPINE[] = {VES_SPINE_SOLVED, VES_SPINE_HERMITE, VES_SPINE_BSPLINE};
+    ves_datum *datum = ves_arena_take(arena, (size_t)d->conditions, sizeof *datum);
+    if (!datum) return VES_MEMORY;
+    *pde = (ves_pde){.layout = {.power = d->power, .lower = d->lower},
+                     .datum = datum,
+                     .general = d->general,
+                     .operators = d->operators,
+                     .modes = d->modes,
+                     .omega = d->omega,
+                     .spine = {SPINE[d->spine], d->spine_vectors, d->spine_first}};
+    memcpy(pde->parameter, d->parameter, sizeof pde->parameter);
+    for (int j = 0; j < d->conditions; j++) {
+        const ves_condition *c = &d->condition[j];
+        ves_term *term = ves_arena_take(arena, (size_t)c->shares, sizeof *term);
+        if (!term) return VES_MEMORY;
+        for (int i = 0; i < c->shares; i++) term[i] = (ves_term){c->share[i].curve, c->share[i].factor};
+        pde->layout.knot[j] = (ves_knot){.u = c->u, .derivative = c->derivative};
+        datum[j] = (ves_datum){.terms = c->shares, .term = term, .scale = c->scale};
+    }
+    return VES_OK;
+}
+
 static ves_status patch_make(ves_plan *plan, int k, ves_diag *diag)
 {
     const ves_patch_def *d = &plan->problem->patch[k];
@@ -148,21 +173,11 @@ static ves_status patch_make(ves_plan *plan, int k, ves_diag *diag)
     if (d->kind == VES_PATCH_POINTS)
         return ves_patch_points(d->rows, d->columns, d->points, d->periodic, &plan->bound, arena,
                                 &plan->patch[k]);
-    ves_layout layout = {.power = d->power};
-    ves_datum datum[VES_CONDITIONS_MAX];
-    for (int j = 0; j < d->conditions; j++) {
-        const ves_condition *c = &d->condition[j];
-        layout.knot[j] = (ves_knot){.u = c->u, .derivative = c->derivative};
-        datum[j] = (ves_datum){.curve = c->curve, .from = c->from, .scale = c->scale};
-    }
-    ves_status status = ves_patch_pde(&layout, datum, d->a, d->modes, &plan->bound, arena, &plan->patch[k]);
-    if (status == VES_SINGULAR)
-        return ves_diag_add(diag, VES_ERROR, status, d->mark,
-                            "the conditions of patch \"%s\" do not determine a surface; give a position at "
-                            "one end at least, and at "
-                            "each end as many conditions as the power of the operator (%d)",
-                            d->name, d->power);
-    return status;
+    ves_pde *pde = ves_arena_take(arena, 1, sizeof *pde);
+    if (!pde) return VES_MEMORY;
+    VES_TRY(pde_define(d, arena, pde));
+    VES_TRY(ves_patch_pde(pde, &plan->bound, arena, &plan->patch[k]));
+    return ves_plan_conditions(plan, k, diag);
 }
 
 /* Does the value change from one candidate to another? */

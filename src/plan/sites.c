@@ -257,7 +257,7 @@ static ves_status formless(const ves_tile *tile, const ves_tile_planes *field)
 static ves_status site_fill(ves_plan *plan, plan_site *s, unsigned needs, bool gradient)
 {
     bool keep = s->varies && (gradient || s->looked);
-    ves_chart_prepare(s->chart, &plan->bound, gradient);
+    VES_TRY(ves_chart_prepare(s->chart, &plan->bound, gradient));
     ves_status worst = VES_OK;
     for (int k = 0; k < s->tiles; k++) {
         ves_tile *tile = &s->tile[k];
@@ -433,7 +433,7 @@ double ves_site_scatter(ves_plan *plan, plan_site *s)
 {
     if (!s->slopes || !s->varies || idle(s)) return 0;
     if (!s->chart) return curve_scatter(plan, s);
-    if (s->looked) ves_chart_prepare(s->chart, &plan->bound, true);
+    if (s->looked) (void)ves_chart_prepare(s->chart, &plan->bound, true); /* it went well when it looked */
     ves_chart_clear(s->chart);
     double by_similarity = 0;
     bool scaled = plan->problem->scale;

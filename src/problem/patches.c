@@ -100,11 +100,20 @@ static int derivative_of(ves_reader *reader, const ves_field *field)
     return (int)(k > 1 || k < 0 ? 1 : k);
 }
 
+/* curve - from */
+static void read_shares(ves_reader *reader, int curve, int from, ves_condition *out)
+{
+    ves_share *share = ves_arena_take(reader->arena, 2, sizeof *share);
+    if (!ves_reader_memory(reader, share)) return;
+    out->share = share;
+    if (curve >= 0) share[out->shares++] = (ves_share){curve, 1};
+    if (from >= 0) share[out->shares++] = (ves_share){from, -1};
+}
+
 static void read_condition(ves_reader *reader, const ves_node *node, ves_condition *out)
 {
     ves_fields f;
-    *out =
-        (ves_condition){.mark = ves_reader_mark(reader, node), .curve = -1, .from = -1, .scale = -1, .u = -1};
+    *out = (ves_condition){.mark = ves_reader_mark(reader, node), .scale = -1, .u = -1};
     const ves_entry *table = ves_schema_find(patch_table(), "conditions")->table->table;
     if (!ves_fields_read(reader, node, table, "condition", &f)) return;
     out->u = end_of(reader, &f.field[at(&f, "u")]);
@@ -112,8 +121,8 @@ static void read_condition(ves_reader *reader, const ves_node *node, ves_conditi
     check_form(reader, node, &f, out->derivative);
     int position = curve_at(reader, &f, "position"), field = curve_at(reader, &f, "field"),
         to = curve_at(reader, &f, "to");
-    out->from = curve_at(reader, &f, "from");
-    out->curve = position >= 0 ? position : field >= 0 ? field : to;
+    int from = curve_at(reader, &f, "from"), curve = position >= 0 ? position : field >= 0 ? field : to;
+    read_shares(reader, curve, from, out);
     ves_dim factor = {0};
     if (ves_fields_find(&f, "scale")) {
         out->scale = number_at(reader, &f, at(&f, "scale"));
@@ -161,7 +170,7 @@ static void read_conditions(ves_reader *reader, const ves_named *name, const ves
 static void read_operator(ves_reader *reader, const ves_node *node, ves_patch_def *patch)
 {
     ves_fields f;
-    patch->a = -1;
+    patch->operators = 1;
     if (!ves_fields_read(reader, node, ves_schema_find(patch_table(), "operator")->table, "operator", &f))
         return;
     ves_field power = f.field[at(&f, "power")];
@@ -175,7 +184,7 @@ static void read_operator(ves_reader *reader, const ves_node *node, ves_patch_de
     else if (power.node && value < 1 && reader->errors == before)
         ves_reader_error(reader, VES_RANGE, power.node, "\"power\" must be 1 or 2");
     patch->power = value == 1 || value == 2 ? (int)value : 0;
-    patch->a = number_at(reader, &f, at(&f, "a"));
+    patch->parameter[0] = number_at(reader, &f, at(&f, "a"));
 }
 
 static void read_pde(ves_reader *reader, const ves_named *name, const ves_fields *f, ves_patch_def *patch)
@@ -306,8 +315,11 @@ static void read_explicit(ves_reader *reader, const ves_node *surface, const ves
 static void read_patch(ves_reader *reader, ves_named *name, ves_patch_def *patch)
 {
     ves_fields f;
-    *patch = (ves_patch_def){
-        .name = name->text, .mark = ves_reader_mark(reader, name->word), .a = -1, .points = -1};
+    *patch = (ves_patch_def){.name = name->text,
+                             .mark = ves_reader_mark(reader, name->word),
+                             .parameter = {-1, -1, -1},
+                             .omega = -1,
+                             .points = -1};
     if (!ves_fields_read(reader, name->value, patch_table(), "patch", &f)) return;
     const ves_node *surface = ves_fields_find(&f, "surface");
     if (surface)

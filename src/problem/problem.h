@@ -68,14 +68,24 @@ typedef struct ves_scale {
     const ves_formula *target;
 } ves_scale;
 
+/* A share of a curve in the data of a condition. */
+typedef struct ves_share {
+    int curve;
+    double factor;
+} ves_share;
+
+/* d_u^derivative X(u) = scale * sum of factor * curve */
 typedef struct ves_condition {
     ves_mark mark;
-    double u;       /* 0 or 1 in format 1, order 2N <= 4 */
-    int derivative; /* 0: position; k: d^k X / du^k */
-    int curve;      /* position, or the field; of a difference the curve `to` */
-    int from;       /* the curve `from` of a difference, or -1 */
-    int scale;      /* number block index, or -1: 1 */
+    double u;       /* 0 .. 1 */
+    int derivative; /* 0: position, which has one share, with factor 1 */
+    int shares;
+    const ves_share *share;
+    int scale; /* number block index, or -1: 1 */
 } ves_condition;
+
+/* A spine that is given [Ugail 2011, 5.3]; see ves_spine in surface/patch.h. */
+typedef enum ves_spine_form { VES_SPINE_NONE, VES_SPINE_BY_HERMITE, VES_SPINE_BY_BSPLINE } ves_spine_form;
 
 typedef enum ves_patch_kind { VES_PATCH_PDE, VES_PATCH_FORMULA, VES_PATCH_POINTS } ves_patch_kind;
 
@@ -85,11 +95,18 @@ typedef struct ves_patch_def {
     ves_patch_kind kind;
     bool periodic; /* in v; a PDE patch always is */
     /* PDE */
-    int power; /* (d_uu + a^2 d_vv)^power */
-    int a;     /* number block index */
-    int modes; /* modes solved exactly; 0: all up to the data's band limit */
-    int conditions;
+    int power;        /* N: (d_uu + a^2 d_vv)^N, or sum_k c_k d_u^(2N-2k) d_v^(2k) */
+    bool general;     /* the latter */
+    int operators;    /* 1, or 3: one each for x, y, z */
+    int parameter[3]; /* of each operator: number block index of a, or of the first of c_0 .. c_N */
+    int modes;        /* modes solved exactly; 0: chosen */
+    int omega;        /* number block index of the remainder's lam; -1: a (modes + 1) */
+    int lower;        /* 0, or the power of the patch whose order is raised: its conditions come first, and
+                         the others say how far the surface departs from it */
+    int conditions;   /* 2N */
     const ves_condition *condition;
+    ves_spine_form spine;
+    int spine_vectors, spine_first; /* how many, and the number block index of the first of their numbers */
     /* FORMULA: arguments 0, 1 are u, v in the domain below */
     const ves_formula *formula[3];
     double u_range[2], v_range[2];

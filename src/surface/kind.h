@@ -8,7 +8,7 @@ typedef struct ves_patch_ops {
     ves_status (*chart)(ves_patch *patch, ves_chart *chart, ves_arena *arena);
     void (*move)(ves_chart *chart);
     void (*bind)(ves_patch *patch, const ves_bound *bound);
-    void (*prepare)(ves_chart *chart, const ves_bound *bound, bool gradient);
+    ves_status (*prepare)(ves_chart *chart, const ves_bound *bound, bool gradient);
     void (*sample)(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field);
     void (*clear)(ves_patch *patch);
     void (*clear_chart)(ves_chart *chart);
@@ -20,7 +20,10 @@ typedef struct ves_patch_ops {
                   double *out, double *room);
     bool (*spine)(const ves_patch *patch, const ves_bound *bound, int count, const double *u, double *out,
                   double *room);
-    double (*tail)(const ves_patch *patch); /* NULL: 0 */
+    double (*tail)(const ves_patch *patch);                                            /* NULL: 0 */
+    ves_status (*status)(const ves_patch *patch);                                      /* NULL: ok */
+    double (*depth)(const ves_patch *patch);                                           /* NULL: 0 */
+    bool (*amplification)(const ves_patch *patch, double n, ves_amplification *found); /* NULL: none */
 } ves_patch_ops;
 
 struct ves_patch {

@@ -50,9 +50,24 @@ void ves_patch_bind(ves_patch *patch, const ves_bound *bound)
     }
 }
 
-void ves_chart_prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
+ves_status ves_patch_status(const ves_patch *patch)
 {
-    chart->patch->ops->prepare(chart, bound, gradient && chart->patch->varies);
+    return patch->ops->status ? patch->ops->status(patch) : VES_OK;
+}
+
+double ves_patch_depth(const ves_patch *patch)
+{
+    return patch->ops->depth ? patch->ops->depth(patch) : 0;
+}
+
+bool ves_patch_amplification(const ves_patch *patch, double n, ves_amplification *found)
+{
+    return patch->ops->amplification && patch->ops->amplification(patch, n, found);
+}
+
+ves_status ves_chart_prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
+{
+    return chart->patch->ops->prepare(chart, bound, gradient && chart->patch->varies);
 }
 
 void ves_chart_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field)

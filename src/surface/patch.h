@@ -15,8 +15,10 @@
 #include "surface/weights.h"
 
 enum {
-    VES_PATCH_MODES = 40
-}; /* modes solved one by one unless the file says more; what is beyond goes into the remainder */
+    VES_PATCH_MODES = 40, /* modes solved one by one unless the file says more; the rest is remainder */
+    VES_PATCH_AMPLIFIED =
+        1000 /* how much of the data conditions inside may make, unless the file says more */
+};
 
 typedef struct ves_patch ves_patch;
 typedef struct ves_chart ves_chart;
@@ -28,19 +30,52 @@ typedef struct ves_bound {
     ves_curves *curves;
 } ves_bound;
 
-/* A condition of a PDE patch: d_u^k X(u) = scale * (curve - from). */
+/* A condition of a PDE patch: d_u^k X(u) = scale * sum of factor * curve. */
+typedef struct ves_term {
+    int curve;
+    double factor;
+} ves_term;
+
 typedef struct ves_datum {
-    int curve, from; /* from: -1: none */
-    int scale;       /* number block index, -1: 1 */
+    int terms;
+    const ves_term *term;
+    int scale; /* number block index, -1: 1 */
 } ves_datum;
 
-/* (d_uu + a^2 d_vv)^N X = 0 with 2N conditions [Ugail 2011, eqs 4.35, 4.15-4.18]. a: number block index.
- * modes: solved one by one; 0:
- * all that the data at the start design have above 1e-5 of their largest, and at least VES_PATCH_MODES. Modes
- * beyond are all taken at lam = a (modes + 1), the remainder of [Ugail 2011, eqs 4.45-4.52 as corrected in
- * docs/errata.md], so that the end curves are met exactly. */
-ves_status ves_patch_pde(const ves_layout *layout, const ves_datum *datum, int a, int modes,
-                         const ves_bound *bound, ves_arena *arena, ves_patch **patch);
+/* A spine that is given: A_0(u), the mean of X over v, is this curve instead of what the equation makes of the
+ * means of the conditions [Ugail 2011, 5.3]. It runs from the mean of the position at u = 0 to that at u = 1,
+ * wherever these go, so that the surface stays joined to its ends. */
+typedef enum ves_spine_kind {
+    VES_SPINE_SOLVED,
+    VES_SPINE_HERMITE, /* two vectors: the derivatives at u = 0 and u = 1 (eqs 5.5-5.8 as corrected) */
+    VES_SPINE_BSPLINE  /* clamped uniform cubic B-spline; the vectors are its inner control points */
+} ves_spine_kind;
+
+typedef struct ves_spine {
+    ves_spine_kind kind;
+    int count; /* of vectors */
+    int first; /* number block index of the first of 3 * count numbers */
+} ves_spine;
+
+/* What a PDE patch is made of. */
+typedef struct ves_pde {
+    ves_layout layout;
+    const ves_datum *datum; /* [2N], one for each knot */
+    bool general;
+    int operators;    /* 1, or 3: x, y and z have one each */
+    int parameter[3]; /* number block index of the first of the parameters of each (surface/operator.h) */
+    /* Modes solved one by one; 0: all that the data at the start design have above 1e-5 of their largest, and
+     * at least VES_PATCH_MODES; with conditions inside the patch, as many of them as are amplified less than
+     * VES_PATCH_AMPLIFIED times. Modes beyond are all taken at lam = omega, the remainder of [Ugail 2011, eqs
+     * 4.45-4.52 as corrected in docs/errata.md; Kubiesa 2004, eqs 22-28], so that all conditions are met
+     * exactly. */
+    int modes;
+    int omega; /* number block index; -1: that of mode `modes` + 1 */
+    ves_spine spine;
+} ves_pde;
+
+/* VES_SINGULAR: the conditions do not determine the surface. The definition must outlive the patch. */
+ves_status ves_patch_pde(const ves_pde *def, const ves_bound *bound, ves_arena *arena, ves_patch **patch);
 
 /* X = (formula[0..2])(u', v') where u', v' run over the given ranges; arguments 0 and 1 of the formulas. */
 typedef struct ves_sheet_formula {
@@ -70,8 +105,10 @@ ves_status ves_chart_create(ves_patch *patch, const ves_grid *grid, unsigned fie
 void ves_chart_move(ves_chart *chart);
 
 void ves_patch_bind(ves_patch *patch, const ves_bound *bound);
-/* gradient: prepare also what gather needs. */
-void ves_chart_prepare(ves_chart *chart, const ves_bound *bound, bool gradient);
+/* VES_NOT_ELLIPTIC, when the operator of the design that is bound is not. */
+ves_status ves_patch_status(const ves_patch *patch);
+/* gradient: prepare also what gather needs. VES_UNDETERMINED: see surface/weights.h. */
+ves_status ves_chart_prepare(ves_chart *chart, const ves_bound *bound, bool gradient);
 void ves_chart_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_planes *field);
 
 void ves_patch_clear(ves_patch *patch);
@@ -90,5 +127,10 @@ void ves_patch_point(const ves_patch *patch, const ves_bound *bound, int count, 
  * k], d = 0..2. false: this patch has none. */
 bool ves_patch_spine(const ves_patch *patch, const ves_bound *bound, int count, const double *u, double *out,
                      double *room);
+
+/* What the conditions make of mode n: the largest of the operators' (surface/weights.h). false: this patch has
+ * none. */
+bool ves_patch_amplification(const ves_patch *patch, double n, ves_amplification *found);
+double ves_patch_depth(const ves_patch *patch); /* ves_layout_depth; 0 for other kinds */
 
 #endif

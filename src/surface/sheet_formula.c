@@ -71,13 +71,13 @@ static ves_status chart_create(ves_patch *patch, ves_chart *chart, ves_arena *ar
     return VES_OK;
 }
 
-static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
+static ves_status prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
 {
     const drawn *d = chart->patch->state;
     ves_sheet *s = chart->state;
     const ves_grid *grid = chart->grid;
     (void)gradient;
-    if (!ves_sheet_stale(chart)) return;
+    if (!ves_sheet_stale(chart)) return VES_OK;
     for (int f = 0; f < VES_POLE_FIELDS; f++)
         for (int c = 0; c < 3 && chart->fields & 1u << f; c++)
             for (int j = 0; j < grid->nv; j++)
@@ -87,6 +87,7 @@ static void prepare(ves_chart *chart, const ves_bound *bound, bool gradient)
                     double value = ves_formula_eval(formula_of(chart, f, c), bound->number, at, s->room);
                     s->plane[f][c][j * grid->nu + i] = factor(d, f) * value;
                 }
+    return VES_OK;
 }
 
 static void gather(ves_chart *chart, const ves_bound *bound, double *number_adjoint)

@@ -1,22 +1,23 @@
 /* Weight tables: everything linear about a patch, paid once.
  *
- * Mode n of (d_uu + a^2 d_vv)^N X = 0 satisfies (D^2 - lam^2)^N y = 0 on [0, 1], lam = a n [Ugail 2011,
- * eqs 4.35-4.39]. With K = 2N conditions D^k y(u_j) = f_j the solution is y(u) = sum_j l_j(u) f_j; the table
- * holds the derivatives of the cardinal functions l_j at the wanted u:
- *     table[((n * 3 + d) * K + j) * nu + i] = d^d l_j / du^d (u_i),  d = 0, 1, 2
- * and, when asked, the derivative of each entry with respect to a (same shape).
- * test  manufactured solutions, MPFR oracle: relative error <= 1e-12 for lam in [0, 1000], of the derivatives
- *       2e-12 */
+ * Mode n of an operator of order 2N satisfies an ordinary equation P(D) y = 0 on [0, 1] (surface/operator.h),
+ * (D^2 - lam^2)^N y = 0 with lam = a n for (d_uu + a^2 d_vv)^N [Ugail 2011, eqs 4.35-4.39]. With K = 2N
+ * conditions D^k y(u_j) = f_j the solution is y(u) = sum_j l_j(u) f_j; the table holds the derivatives of the
+ * cardinal functions l_j at the wanted u:
+ *     weight[((n * 3 + d) * K + j) * nu + i] = d^d l_j / du^d (u_i),  d = 0, 1, 2
+ * and, when asked, the derivative of each entry with respect to each parameter of the operator (same shape).
+ *
+ * Conditions at the ends, orders 2 and 4, are solved in double precision (fast.c), all others in
+ * double-double (exact.c): textbook bases lose every digit from order 14 on, these none.
+ * test  manufactured solutions, MPFR oracle: see weights_oracle.c for the bars */
 #ifndef VES_SURFACE_WEIGHTS_H
 #define VES_SURFACE_WEIGHTS_H
 
-#include <stdbool.h>
+#include "surface/operator.h"
 
-#include "vesica/status.h"
+enum { VES_CONDITIONS_MAX = 2 * VES_POWER_MAX };
 
-enum { VES_POWER_MAX = 2, VES_CONDITIONS_MAX = 2 * VES_POWER_MAX };
-
-/* Where a condition stands. */
+/* Where a condition stands: the d-th derivative at u. */
 typedef struct ves_knot {
     double u;
     int derivative;
@@ -25,32 +26,50 @@ typedef struct ves_knot {
 typedef struct ves_layout {
     int power;                         /* N */
     ves_knot knot[VES_CONDITIONS_MAX]; /* 2N of them */
+    /* 0, or the N of a lower order whose conditions are the first 2N' knots: the first 2N' cardinal functions
+     * are those of that order; the others, of the full one, say how far X departs from the lower solution at
+     * their knots [Kubiesa 2004, 5.2]. A power operator only: each solution of a lower power is one of a
+     * higher. */
+    int lower;
 } ves_layout;
-
-/* VES_SINGULAR when the conditions do not determine mode 0 or some other mode. */
-ves_status ves_layout_check(const ves_layout *layout);
 
 /* Doubles in a table of `modes` modes (0 .. modes) at nu places. */
 long ves_weights_size(const ves_layout *layout, int modes, int nu);
 
 /* Doubles of scratch, aligned to 64 bytes, for ves_weights_bind and ves_weights_mode. */
-long ves_weights_room(int nu);
+long ves_weights_room(const ves_layout *layout, int nu);
 
 /* A table and what goes with it. */
 typedef struct ves_table {
-    double *weight;   /* ves_weights_size doubles */
-    double *weight_a; /* their derivatives with respect to a, or NULL: not wanted */
-    double *room;     /* ves_weights_room doubles */
-    bool has_zero;    /* mode 0, which does not depend on a, is there already */
+    double *weight; /* ves_weights_size doubles */
+    double *slope; /* [parameters][ves_weights_size]: derivatives with respect to each, or NULL: not wanted */
+    double *room;  /* ves_weights_room doubles */
+    bool has_zero; /* mode 0, which does not depend on the operator, is there already */
 } ves_table;
 
-/* Fills the table for modes 0 .. modes at lam = a n (a >= 0; 0 is legal). Allocates nothing. */
-void ves_weights_bind(const ves_layout *layout, double a, int modes, int nu, const double *u,
-                      const ves_table *table);
+/* Fills the table for modes 0 .. modes. Allocates nothing. VES_UNDETERMINED: the conditions do not determine
+ * some mode (or only with numbers that no double holds), whose weights are then 0. The operator is
+ * elliptic. */
+ves_status ves_weights_bind(const ves_layout *layout, const ves_operator *op, int modes, int nu,
+                            const double *u, const ves_table *table);
 
-/* One row of a table for a given lam: weight[(d * K + j) * nu + i]; weight_lam (or NULL) its derivative. The
- * remainder's table is this at lam = a (M + 1). */
-void ves_weights_mode(const ves_layout *layout, double lam, int nu, const double *u, double *weight,
-                      double *weight_lam, double *room);
+/* One row of a table, weight[(d * K + j) * nu + i], for a given n >= 0, whole or not: the remainder's table
+ * is this at n = M + 1. slope: [parameters][3 * K * nu], or NULL. */
+ves_status ves_weights_mode(const ves_layout *layout, const ves_operator *op, double n, int nu,
+                            const double *u, const ves_table *row);
+
+/* What the conditions make of mode n. */
+typedef struct ves_amplification {
+    double
+        lebesgue; /* max over u of the sum of |l_j(u)| over the function conditions: the size of the surface
+                        that data of size 1 may make, and the digits lost */
+    double condition; /* estimate of the condition number of the equilibrated condition matrix */
+} ves_amplification;
+ves_status ves_weights_amplification(const ves_layout *layout, const ves_operator *op, double n,
+                                     ves_amplification *found);
+
+/* The largest u_N: the distance of the N-th condition from its nearer end. Mode n is amplified about
+ * e^(lam u_N) times: 0 when half of the conditions stand at each end. */
+double ves_layout_depth(const ves_layout *layout);
 
 #endif

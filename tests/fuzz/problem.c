@@ -52,10 +52,14 @@ static void check_problem(const ves_problem *p)
         const ves_patch_def *patch = &p->patch[k];
         bool pde = patch->kind == VES_PATCH_PDE, formula = patch->kind == VES_PATCH_FORMULA;
         if (pde)
-            require(patch->conditions == 2 * patch->power && patch->a >= p->slots && patch->a < p->block,
+            require(patch->conditions == 2 * patch->power && patch->parameter[0] >= p->slots &&
+                        patch->parameter[0] < p->block,
                     "a patch");
         for (int i = 0; pde && i < patch->conditions; i++)
-            require(patch->condition[i].curve >= 0 && patch->condition[i].curve < p->curves, "a condition");
+            for (int s = 0; s < patch->condition[i].shares; s++)
+                require(patch->condition[i].share[s].curve >= 0 &&
+                            patch->condition[i].share[s].curve < p->curves,
+                        "a condition");
         for (int i = 0; formula && i < 3; i++)
             require(patch->formula[i] != NULL, "a surface without a formula");
     }

@@ -1,0 +1,28 @@
+/* Weights in double-double: any operator, any conditions, to rounding as far as the conditions themselves
+ * allow. Textbook bases lose every digit from order 14 on; these bases (basis.h) are well conditioned up to
+ * 1e-20 or so, and 32 digits are left for that. Called by weights.c. */
+#ifndef VES_SURFACE_EXACT_H
+#define VES_SURFACE_EXACT_H
+
+#include <stddef.h>
+
+#include "surface/weights.h"
+
+/* What is wanted: of the cardinal functions first .. first + count - 1 the derivatives 0 .. orders - 1, at
+ * weight[(d * columns + j) * nu + i]; slope (or NULL): the same for each parameter, `stride` doubles apart. */
+typedef struct ves_exact_out {
+    int first, count, columns, orders;
+    double *weight, *slope;
+    size_t stride;
+} ves_exact_out;
+
+long ves_exact_room(const ves_layout *layout, int orders); /* doubles */
+/* layout->lower is not looked at. VES_UNDETERMINED: what is wanted is 0 then. */
+ves_status ves_exact_mode(const ves_layout *layout, const ves_operator *op, double n, int nu, const double *u,
+                          const ves_exact_out *out, double *room);
+
+/* The condition number of the equilibrated condition matrix, in the row-sum norm. */
+ves_status ves_exact_condition(const ves_layout *layout, const ves_operator *op, double n, double *condition,
+                               double *room);
+
+#endif

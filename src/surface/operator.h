@@ -1,0 +1,29 @@
+/* Operators: the elliptic equation that a patch solves, with constant coefficients, of order 2N:
+ *     (d_uu + a^2 d_vv)^N X = 0                                                        [Ugail 2011, eq 4.35]
+ *     sum_k c_k d_u^(2N-2k) d_v^(2k) X = 0,  k = 0 .. N             [Ugail 2011, eq 4.54; Huang 2012, eq 5]
+ * Mode n of X satisfies P(D) y = 0 with the even polynomial P(r) = sum_k c_k (-n^2)^k r^(2N-2k), elliptic
+ * when sum_k c_k t^(N-k) > 0 for all t >= 0: then no root is imaginary, N roots decay from u = 0 and their
+ * negatives from u = 1. */
+#ifndef VES_SURFACE_OPERATOR_H
+#define VES_SURFACE_OPERATOR_H
+
+#include <stdbool.h>
+
+#include "vesica/status.h"
+
+enum { VES_POWER_MAX = 20, VES_GENERAL_MAX = 6, VES_PARAMETERS_MAX = VES_GENERAL_MAX + 1 };
+
+typedef struct ves_operator {
+    int power; /* N: 1 .. VES_POWER_MAX; general: 1 .. VES_GENERAL_MAX */
+    bool general;
+    double parameter[VES_PARAMETERS_MAX]; /* a; general: c_0 .. c_N */
+} ves_operator;
+
+/* How many numbers an operator has: 1 (a), or N + 1. */
+int ves_operator_parameters(const ves_operator *op);
+
+/* Is it elliptic? If not, *t is a place t >= 0 where sum_k c_k t^(N-k) <= 0: in the direction in which
+ * d_uu X = -t n^2 X waves run instead of dying out. A power operator always is, for a >= 0. */
+bool ves_operator_elliptic(const ves_operator *op, double *t);
+
+#endif
