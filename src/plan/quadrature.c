@@ -72,6 +72,21 @@ static ves_status refine(const ves_plan *plan, const double *x, int d, int grid[
     return VES_OK;
 }
 
+/* The plan of the first grid, which sees the modes. Round noses and thin edges may look folded on it: then it is
+ * made finer, around and across in turn, until they do not, or as fine as may be chosen. */
+static ves_status begin(const ves_problem *problem, int grid[2], ves_plan **plan)
+{
+    const int most[2] = {U_MOST, V_MOST};
+    VES_TRY(ves_plan_make(problem, grid, plan, NULL));
+    grid[1] = resolving(*plan);
+    for (int turn = 1;; turn = !turn) {
+        ves_plan_destroy(*plan);
+        VES_TRY(ves_plan_make(problem, grid, plan, NULL));
+        if ((*plan)->measured != VES_FOLDED || 2 * grid[turn] > most[turn]) return VES_OK;
+        grid[turn] *= 2;
+    }
+}
+
 ves_status ves_plan_choose(const ves_problem *problem, const double *at, int quadrature[2], double *change)
 {
     ves_arena arena = {0};
@@ -80,12 +95,7 @@ ves_status ves_plan_choose(const ves_problem *problem, const double *at, int qua
     ves_plan *plan = NULL;
     int grid[2] = {U_LEAST, 2 * V_LEAST};
     ves_status status = value && x ? VES_OK : VES_MEMORY;
-    if (status == VES_OK) status = ves_plan_make(problem, grid, &plan, NULL);
-    if (status == VES_OK) grid[1] = resolving(plan);
-    if (status == VES_OK && grid[1] > 2 * V_LEAST) { /* the search for a design must see the modes too */
-        ves_plan_destroy(plan);
-        status = ves_plan_make(problem, grid, &plan, NULL);
-    }
+    if (status == VES_OK) status = begin(problem, grid, &plan);
     bool there = status == VES_OK && at && ves_plan_measure_all(plan, at, 0) == VES_OK;
     if (status == VES_OK && !there) status = plan->measured;
     if (status == VES_OK && problem->variables)
