@@ -12,8 +12,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* fontconfig keeps what it has read about the fonts until the process ends, and nothing of it points there.
- */
+/* fontconfig keeps what it has read about the fonts until the process ends; nothing of it points there. */
 const char *__lsan_default_suppressions(void);
 const char *__asan_default_options(void);
 
@@ -258,6 +257,8 @@ Test(api, a_plan_tells_its_grid_and_its_patches)
     double left;
     cr_assert_eq(ves_plan_choose(problem, NULL, again, &left), VES_OK);
     cr_expect(left == change && again[0] == grid[0] && again[1] == grid[1]);
+    cr_expect(ves_plan_joints(plan) == 0 && ves_plan_joint(plan, 0, NULL) == VES_RANGE);
+    cr_expect_str_eq(ves_joint_text(VES_JOINT_C2), "C2");
     ves_patch_facts facts = ves_plan_patch(plan, 0);
     cr_expect(facts.band >= 1 && facts.modes == facts.band && facts.tail == 0);
     cr_assert_eq(ves_plan_points(plan, 0, 2, u, v, &at[0][0][0]), VES_OK);
@@ -300,8 +301,6 @@ Test(api, a_number_outside_its_range_is_told_with_its_place)
     ves_problem_destroy(problem);
 }
 
-/* --- a run --- */
-
 Test(api, a_run_finds_the_best_and_tells_all_about_it)
 {
     ves_problem *problem = read_file("bottle");
@@ -318,6 +317,8 @@ Test(api, a_run_finds_the_best_and_tells_all_about_it)
     cr_expect(fabs(run->best.objective - PI / sqrt(2)) < 1e-9, "%.12g", run->best.objective);
     cr_expect(run->best.measure[0] == run->best.objective && run->best.violation < 1e-9);
     cr_expect(run->best.side[0].holds && run->best.side[0].limit == 3 * PI);
+    cr_assert(run->joints == 2 && !strcmp(run->joint[1].curve, "high") && run->joint[1].end[0] == 1);
+    cr_expect(fabs(run->joint[1].angle - PI / 2) < 1e-14 && run->joint[1].continuity == VES_JOINT_C0);
     cr_expect(fabs(run->best.x[0] - sqrt(0.5)) < 1e-6 && run->finer_change < 1e-9);
     cr_expect(fabs(run->start.objective - PI / 4) < 1e-12 && !run->start.feasible);
     cr_assert(run->optima >= 1);
@@ -392,8 +393,6 @@ Test(api, a_run_that_is_stopped_before_it_begins_has_its_start)
     ves_run_destroy(run);
     ves_problem_destroy(problem);
 }
-
-/* --- a search of one's own --- */
 
 Test(api, a_plan_is_searched_with_options_of_ones_own)
 {

@@ -57,7 +57,8 @@ Test(cli_screen, numbers_are_in_the_units_of_the_file)
     cr_assert(eq(str, o.err, ""), "a run's own numbers have their units");
     done(&o);
     o = vesica(NULL, "check " PROBLEMS "bottle.yaml");
-    has_lines(o.out, (const char *const[]){"r 0.5 [0.2, 1.1]\n", "area 4.712389\n", NULL});
+    has_lines(o.out, (const char *const[]){"r 0.5 [0.2, 1.1]\n", "area 4.712389\n",
+                                           "\n base.u1, wall.u0 low C0 crease of 90 deg\n", NULL});
     done(&o);
     root_remove();
 }

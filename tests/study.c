@@ -243,6 +243,8 @@ Test(study, the_best_bottle_is_that_of_the_closed_form)
     cr_assert(number_at(json, "evaluations") == (double)run->evaluations);
     cr_assert(number_at(json, "optima.0.value") > 0, "the file's sign");
     cr_assert(number_at(json, "start.violation") == run->start.violation);
+    near(number_at(json, "joints.0.angle_deg"), 90, 1e-12, "the floor stands on the wall");
+    cr_assert(number_at(json, "joints.1.gap") == run->joint[1].gap);
     ves_arena_destroy(&arena);
     finish(&t);
     root_remove();

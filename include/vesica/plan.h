@@ -134,6 +134,62 @@ ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u
  * out[(d * 3 + c) * count + k]. VES_ABSENT: that patch has none; VES_MEMORY; VES_RANGE: no such patch. */
 ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u, double *out);
 
+/* Joints: where two ends of PDE patches lie on one curve. The two surfaces share that curve and its v, so all
+ * derivatives along it agree; what may jump is what leads across. Let X_w be the derivative along u in the
+ * direction that leaves the one patch and enters the other (X_u or -X_u, by the ends that meet), and the
+ * curvature that of the normal section conormal to the curve, each side with the normal X_w x X_v. Then
+ *     C0  both have the same points
+ *     G1  and the same normal: no crease
+ *     G2  and the same curvature across. With G1 the two other entries of the second fundamental form follow
+ *         from the curve and its normals, so that all normal curvatures agree: highlights do not break
+ *     C1  and the same X_w. It implies G1, X_v being shared and X_w, X_v independent
+ *     C2  and the same X_w and X_uu. It implies C1 and G2: both forms are made of derivatives that agree
+ * C1 says nothing of G2, nor G2 of C1 (two patches of unlike length have unlike X_w, however smooth).
+ *
+ * Of three or more ends on one curve every two are a joint: which two of them go on into each other, and at
+ * what angle the third stands, is then seen. Ends that are points, caps, and sheets (where one meets itself,
+ * too) are none.
+ *
+ * Tolerances: a gap of 1e-9 of the curve's radius (rounding is 1e-15 of it, and conditions inside a patch may
+ * amplify that); 0.001 degrees (a hundredth of what car bodies ask for; rounding makes 1e-9); 1e-4 of the
+ * curvature (what the eye sees in highlights begins at some percent); 1e-5 of |X_u|, which is 0.0006 degrees
+ * where it is all sideways; 1e-4 of the larger of |X_u| and |X_uu|. A slope that a search makes equal within
+ * 1e-6 meets them. */
+typedef enum ves_joint_class {
+    VES_JOINT_OPEN, /* not even C0: the conditions of a patch amplify rounding this much */
+    VES_JOINT_C0,   /* a crease; or a side has no tangent plane somewhere (X_u = 0) */
+    VES_JOINT_G1,
+    VES_JOINT_C1,
+    VES_JOINT_G2,
+    VES_JOINT_C1_G2, /* both, and not C2 */
+    VES_JOINT_C2
+} ves_joint_class;
+
+typedef struct ves_joint {
+    int patch[2], end[2];  /* patch[k] ends at u = end[k] there; in the order of the file */
+    const char *curve;     /* its name; of the problem */
+    double gap;            /* largest distance of the two surfaces, m */
+    double angle;          /* largest angle between their normals, 0 .. pi: how far the surface turns there */
+    double slope_jump;     /* largest |jump of X_w|, relative to the longer X_w there: 0 .. 2 */
+    double second_jump;    /* largest |jump of X_uu|, relative to the largest |X_uu| or |X_u| of both ends */
+    double curvature_jump; /* largest jump of the curvature across, 1/m; tells of G2 where there is G1 */
+    double curvature_relative; /* the same, relative to the largest such curvature of both ends, or to 1 over
+                                  the curve's radius (its root mean square distance from its middle) */
+    ves_joint_class continuity;
+} ves_joint;
+
+/* How many joints there are; the same for every design. */
+int ves_plan_joints(const ves_plan *plan);
+
+/* Joint 0 .. ves_plan_joints - 1 of the design last evaluated, in its size (see ves_plan_points). Its largest
+ * values are those at 256 places around, or 16 for each mode of the two patches if these are more (4096 at most):
+ * within 2 % of the largest anywhere for what is made of these modes. NAN: a side has no tangent plane somewhere. Takes memory
+ * for a while. Positive (VES_UNDETERMINED, VES_NOT_ELLIPTIC): a patch has no surface; VES_RANGE: no such joint;
+ * VES_MEMORY. *found is then untouched. */
+ves_status ves_plan_joint(ves_plan *plan, int joint, ves_joint *found);
+
+const char *ves_joint_text(ves_joint_class continuity); /* "open", "C0", "G1", "C1", "G2", "C1 G2", "C2" */
+
 /* The shape at x on nu x nv cells a patch (1 to 10000 and 3 to 10000, 2e7 in all; 0: chosen), for files,
  * pictures and meshes. Owned by the caller. A design that fails is drawn all the same, with a warning in
  * diag, as long as it has a shape: a positive status says that it has none (VES_NO_ROOT, VES_NO_BRACKET,

@@ -87,7 +87,9 @@ typedef struct ves_run {
     ves_status proof;       /* of a design measured once: why it did not pass its checks, or VES_OK */
     ves_design best, finer; /* finer: best on a grid twice as fine */
     double finer_change;    /* largest relative difference of the two */
-    int optima;             /* distinct ends of the search */
+    int joints;             /* of the best, as ves_plan_joint tells them; 0: none, or it cannot be measured */
+    const ves_joint *joint;
+    int optima;                 /* distinct ends of the search */
     const ves_optimum *optimum; /* best first; value with the sign of the file, violation as in a design */
     ves_ending ending;
     const char *stop; /* a sentence: why the search ended */

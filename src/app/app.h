@@ -100,6 +100,7 @@ const app_command *app_command_find(const char *name);
 /* screen.c: the result of a run, for people. */
 void app_screen_run(const ves_run *run, FILE *out);
 void app_screen_variables(const ves_run *run, FILE *out);
+void app_screen_joints(const ves_run *run, FILE *out);
 void app_screen_design(const ves_problem *problem, const ves_design *design, FILE *out);
 const char *app_screen_number(double value, char buffer[32]);
 const char *app_screen_thousands(long value, char buffer[32]);

@@ -141,6 +141,7 @@ static void json_print(const checked *c)
     ves_json_object(&json, NULL);
     ves_json_text(&json, "title", p->title);
     ves_result_design(p, &c->run->best, &json);
+    ves_result_joints(c->run, &json);
     ves_json_object(&json, "quadrature");
     ves_json_integer(&json, "u", c->run->quadrature[0]);
     ves_json_integer(&json, "v", c->run->quadrature[1]);
@@ -175,6 +176,7 @@ static int report(app *a, checked *c)
         patches(c);
         printf("  start design\n\n");
         app_screen_design(c->run->problem, &c->run->best, stdout);
+        app_screen_joints(c->run, stdout);
         costs(c);
     }
     return c->run->any && c->run->proof == VES_OK ? APP_DONE : APP_UNMET;

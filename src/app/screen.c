@@ -4,12 +4,13 @@
 
 #include "app/app.h"
 #include "app/table.h"
+#include "base/vector.h"
 
 /* A variable this near to its limit, relative to its range, lies on it. */
 static const double AT_LIMIT = 1e-6;
 
 /* Of what sets two optima apart: so many variables, if they differ by this part of the largest difference. */
-enum { OPTIMA = 8, DIFFERENCES = 3 };
+enum { OPTIMA = 8, DIFFERENCES = 3, JOINTS = 24 };
 static const double APART = 0.1;
 
 const char *app_screen_number(double value, char buffer[32])
@@ -210,6 +211,41 @@ static void measures(const ves_problem *p, const ves_design *best, const ves_des
     fputc('\n', out);
 }
 
+/* A crease by its angle; a smooth joint in a word; where only the curvature jumps, by how much. */
+static void joint_row(app_table *t, const ves_problem *p, const ves_joint *j)
+{
+    const char *class = ves_joint_text(j->continuity), *metre = p->units ? " m" : "",
+               *per_metre = p->units ? " 1/m" : "";
+    app_table_cell(t, "%s.u%d, %s.u%d", p->patch[j->patch[0]].name, j->end[0], p->patch[j->patch[1]].name,
+                   j->end[1]);
+    app_table_cell(t, "%s", j->curve);
+    app_table_cell(t, "%s", class);
+    if (j->continuity == VES_JOINT_OPEN)
+        app_table_cell(t, "a gap of %.2g%s", j->gap, metre);
+    else if (j->continuity == VES_JOINT_C0 && isnan(j->angle))
+        app_table_cell(t, "no tangent plane somewhere");
+    else if (j->continuity == VES_JOINT_C0)
+        app_table_cell(t, "crease of %.4g deg", j->angle * 180 / VES_PI);
+    else if (j->continuity == VES_JOINT_G1 || j->continuity == VES_JOINT_C1)
+        app_table_cell(t, "smooth; curvature jumps by %.3g%s (%.2g %%)", j->curvature_jump, per_metre,
+                       100 * j->curvature_relative);
+    else
+        app_table_cell(t, "smooth");
+}
+
+void app_screen_joints(const ves_run *run, FILE *out)
+{
+    app_table t = {.align = "llll"};
+    if (!run->joints) return;
+    app_table_cell(&t, "joint");
+    app_table_cell(&t, "on");
+    app_table_end(&t);
+    for (int k = 0; k < run->joints && k < JOINTS; k++) joint_row(&t, run->problem, &run->joint[k]);
+    app_table_print(&t, out);
+    if (run->joints > JOINTS) fprintf(out, "  and %d more with --json\n", run->joints - JOINTS);
+    fputc('\n', out);
+}
+
 /* What sets another optimum apart from the best: the variables that differ most, relative to their ranges. */
 static void differences(const ves_run *run, int index, char *text, size_t size)
 {
@@ -341,6 +377,7 @@ void app_screen_run(const ves_run *run, FILE *out)
     constraints(p, &run->best, out);
     app_screen_variables(run, out);
     measures(p, &run->best, start, out);
+    app_screen_joints(run, out);
     remarks(run, out);
     conclusion(run, out);
 }

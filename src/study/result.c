@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "study/trace.h"
 
 static void variables(const ves_problem *problem, const double *x, ves_json *json)
@@ -180,6 +181,32 @@ static void plugins(const ves_problem *problem, ves_json *json)
     ves_json_end(json, ']');
 }
 
+void ves_result_joints(const ves_run *run, ves_json *json)
+{
+    ves_json_array(json, "joints");
+    for (int k = 0; k < run->joints; k++) {
+        const ves_joint *j = &run->joint[k];
+        ves_json_object(json, NULL);
+        ves_json_array(json, "ends");
+        for (int i = 0; i < 2; i++) {
+            char end[96];
+            snprintf(end, sizeof end, "%.80s.u%d", run->problem->patch[j->patch[i]].name, j->end[i]);
+            ves_json_text(json, NULL, end);
+        }
+        ves_json_end(json, ']');
+        ves_json_text(json, "curve", j->curve);
+        ves_json_number(json, "gap", j->gap);
+        ves_json_number(json, "angle_deg", j->angle * 180 / VES_PI);
+        ves_json_number(json, "slope_jump", j->slope_jump);
+        ves_json_number(json, "second_jump", j->second_jump);
+        ves_json_number(json, "curvature_jump", j->curvature_jump);
+        ves_json_number(json, "curvature_relative", j->curvature_relative);
+        ves_json_text(json, "class", ves_joint_text(j->continuity));
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+}
+
 void ves_result_write(const ves_run *run, ves_json *json)
 {
     const ves_problem *problem = run->problem;
@@ -194,6 +221,7 @@ void ves_result_write(const ves_run *run, ves_json *json)
     constraints(problem, &run->best, json);
     unknown(problem, &run->best, json);
     if (problem->scale) ves_json_number(json, "scale", run->best.similarity);
+    ves_result_joints(run, json);
     units(problem, json);
     ves_json_integer(json, "evaluations", run->evaluations);
     ves_json_integer(json, "gradients", run->gradients);

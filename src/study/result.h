@@ -12,6 +12,9 @@ void ves_result_write(const ves_run *run, ves_json *json);
 /* variables, measures, objective, violation of one design: what eval answers. */
 void ves_result_design(const ves_problem *problem, const ves_design *design, ves_json *json);
 
+/* joints: an array, of the best of a run. */
+void ves_result_joints(const ves_run *run, ves_json *json);
+
 /* times.json: all clock data. */
 void ves_result_times(const ves_run *run, ves_json *json);
 

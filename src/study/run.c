@@ -8,6 +8,7 @@
 #include "base/diag.h"
 #include "study/folder.h"
 #include "study/idle.h"
+#include "study/judge.h"
 #include "study/keep.h"
 #include "study/settle.h"
 #include "study/trace.h"
@@ -106,6 +107,7 @@ static void set_up(study *s)
     run->times.threads = machine_threads();
     run->stop = s->problem->variables ? "nothing to optimize" : "nothing to vary";
     run->change = run->finer_change = NAN;
+    run->passed = true;
     time_t now = time(NULL);
     struct tm utc;
     if (gmtime_r(&now, &utc))
@@ -486,52 +488,6 @@ static ves_status once(study *s)
     return VES_OK;
 }
 
-/* --- checks --- */
-
-static bool holds(const study *s, const ves_formula *formula, const double *argument, double *room)
-{
-    double value = ves_formula_eval(formula, s->run->best.slot, argument, room);
-    return !isnan(value) && value != 0;
-}
-
-static double *expect_arguments(const study *s)
-{
-    const ves_run *run = s->run;
-    int first = s->problem->measures;
-    double *argument = ves_arena_take(s->arena, (size_t)(first + VES_EXPECT_NAMES), sizeof *argument);
-    if (!argument) return NULL;
-    if (first) memcpy(argument, run->best.measure, sizeof *argument * (size_t)first);
-    argument[first + VES_EXPECT_OBJECTIVE] = run->best.objective;
-    argument[first + VES_EXPECT_VIOLATION] = run->best.violation;
-    argument[first + VES_EXPECT_FEASIBLE] = run->feasible;
-    argument[first + VES_EXPECT_EVALUATIONS] = (double)run->evaluations;
-    argument[first + VES_EXPECT_GRADIENTS] = (double)run->gradients;
-    argument[first + VES_EXPECT_OPTIMA] = run->optima;
-    return argument;
-}
-
-static ves_status expect(study *s)
-{
-    const ves_problem *p = s->problem;
-    ves_run *run = s->run;
-    bool test = s->options->test && p->test_expects > 0;
-    const ves_expect_def *list = test ? p->test_expect : p->expect;
-    run->passed = true;
-    if (s->options->once) return VES_OK;
-    run->expects = test ? p->test_expects : p->expects;
-    ves_run_expect *expect = ves_arena_take(s->arena, (size_t)run->expects, sizeof *expect);
-    double *argument = expect_arguments(s);
-    run->expect = expect;
-    if (!expect || !argument) return ves_diag_fail(s->diag, VES_MEMORY);
-    for (int k = 0; k < run->expects; k++) {
-        double *room = ves_arena_take(s->arena, (size_t)ves_formula_room(list[k].formula), sizeof *room);
-        if (!room) return ves_diag_fail(s->diag, VES_MEMORY);
-        expect[k] = (ves_run_expect){list[k].text, holds(s, list[k].formula, argument, room)};
-        run->passed = run->passed && expect[k].passed;
-    }
-    return VES_OK;
-}
-
 /* --- the whole --- */
 
 static ves_status work(study *s)
@@ -545,7 +501,9 @@ static ves_status work(study *s)
     if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);
     VES_TRY(run->searched ? search(s) : once(s));
     run->finer_change = ves_plan_change(s->plan[0], &run->best, &run->finer);
-    VES_TRY(expect(s));
+    if (ves_judge_joints(s->plan[0], run, s->arena) != VES_OK ||
+        (!s->options->once && ves_judge_expect(run, s->options->test, s->arena) != VES_OK))
+        return ves_diag_fail(s->diag, VES_MEMORY);
     run->times.wall = ves_study_clock() - s->wall;
     run->times.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID) - s->cpu;
     folder_end(s);
