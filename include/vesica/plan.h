@@ -99,8 +99,8 @@ double ves_plan_change(ves_plan *plan, const ves_design *a, const ves_design *b)
 
 /* After a positive answer `status`: a warning "what: ..." that says why, with the place when diag is the one
  * that the problem was read with: which number has left the range of its key (VES_OUTSIDE), which measure or
- * formula has no value (VES_NO_NUMBER), where which patch has no point (VES_NO_POINT); else the sentence of
- * the status. */
+ * formula has no value (VES_NO_NUMBER), where which patch has no point (VES_NO_POINT), which coefficients are
+ * not elliptic (VES_NOT_ELLIPTIC); else the sentence of the status. */
 void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag *diag);
 
 /* The problem as a search poses it: vesica/search.h with options, hooks and threads of one's own.

@@ -191,6 +191,11 @@ ves_status ves_plan_sheets(ves_plan *plan, ves_diag *diag);
 /* conditions.c: refuses conditions that determine no surface, warns of those that amplify */
 ves_status ves_plan_conditions(const ves_plan *plan, int patch, ves_diag *diag);
 
+/* elliptic.c: refuses a patch whose operator is not elliptic at the start; and tells, "what: ...", of one whose
+ * is not at the design that is bound (false: all are). */
+ves_status ves_plan_elliptic(const ves_plan *plan, int patch, ves_diag *diag);
+bool ves_plan_elliptic_tell(const ves_plan *plan, const char *what, ves_diag *diag);
+
 /* orient.c: shared curves -> sides and closedness */
 ves_status ves_plan_orient(ves_plan *plan, ves_diag *diag);
 bool ves_end_is_pole(const ves_plan *plan, int patch, int end);

@@ -118,10 +118,19 @@ static ves_status caps_check(const ves_plan *plan, ves_diag *diag)
     return VES_OK;
 }
 
+/* What would close an end that is open, besides a cap. */
+static const char *way_out(const ves_plan *plan, int patch, int end)
+{
+    if (def(plan, patch)->kind != VES_PATCH_PDE)
+        return "a surface that is given is joined to no other patch: end it in a point";
+    if (ves_end_curve(plan, patch, end) < 0)
+        return "give its position there: a curve of another patch, or a point,";
+    return "let one other patch end on the same curve, end it in a point,";
+}
+
 static ves_status open_end(const ves_plan *plan, int patch, int end, beyond what, ves_diag *diag)
 {
     const ves_problem *p = plan->problem;
-    int curve = ves_end_curve(plan, patch, end);
     char hint[HINT] = "";
     ves_end other;
     double gap;
@@ -131,9 +140,7 @@ static ves_status open_end(const ves_plan *plan, int patch, int end, beyond what
     return ves_diag_add(diag, VES_ERROR, VES_SINGULAR, p->shape.mark,
                         "the shape is not closed: \"%s.u%d\" is %s; %s or close it with caps: [%s.u%d]%s",
                         p->patch[patch].name, end, what == BRANCHED ? "shared by more than two ends" : "free",
-                        curve < 0 ? "a surface that is given is joined to no other patch: end it in a point"
-                                  : "let one other patch end on the same curve, end it in a point,",
-                        p->patch[patch].name, end, hint);
+                        way_out(plan, patch, end), p->patch[patch].name, end, hint);
 }
 
 /* A closed shape has two sides and no free edge. */

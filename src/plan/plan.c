@@ -177,6 +177,7 @@ static ves_status patch_make(ves_plan *plan, int k, ves_diag *diag)
     if (!pde) return VES_MEMORY;
     VES_TRY(pde_define(d, arena, pde));
     VES_TRY(ves_patch_pde(pde, &plan->bound, arena, &plan->patch[k]));
+    VES_TRY(ves_plan_elliptic(plan, k, diag));
     return ves_plan_conditions(plan, k, diag);
 }
 

@@ -243,8 +243,17 @@ const char *ves_describe_status(ves_status status)
     case VES_OUTSIDE:
         return "A formula of variables leads out of the range of its key, as a radius below 0. Narrow the "
                "ranges.";
+    case VES_NOT_ELLIPTIC:
+        return "c0 t^N + c1 t^(N-1) + ... + cN, with the coefficients of the patch, is 0 or less for some t "
+               ">= "
+               "0: in that direction waves\n      run along u instead of dying out. Narrow the ranges of the "
+               "variables; coefficients that are all positive are safe.";
+    case VES_UNDETERMINED:
+        return "Conditions inside a patch, or derivatives without the lower ones, can leave a mode free for "
+               "some coefficients or some a.\n      Narrow the ranges, or give positions and all lower "
+               "derivatives where a derivative stands.";
     case VES_SINGULAR:
-        return "Two conditions of a patch say the same, as two positions at one end.";
+        return "Conditions of a patch say the same, or leave a mode free.";
     case VES_FAULT:
         return "Please report it, with the problem file.";
     default:

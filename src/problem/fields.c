@@ -18,6 +18,11 @@ static ves_field *field_of(ves_fields *fields, const char *name)
     return NULL;
 }
 
+const ves_field *ves_fields_field(const ves_fields *fields, const char *name)
+{
+    return field_of((ves_fields *)fields, name);
+}
+
 const ves_node *ves_fields_find(const ves_fields *fields, const char *name)
 {
     const ves_field *field = field_of((ves_fields *)fields, name);

@@ -5,6 +5,7 @@
 #ifndef VES_PROBLEM_READER_H
 #define VES_PROBLEM_READER_H
 
+#include "base/order.h"
 #include "problem/problem.h"
 #include "problem/schema.h"
 #include "problem/tree.h"
@@ -124,7 +125,8 @@ bool ves_fields_read(ves_reader *reader, const ves_node *node, const ves_entry *
                      ves_fields *fields);
 bool ves_fields_read_keys(ves_reader *reader, const ves_node *node, const ves_key *keys, const ves_key *extra,
                           const char *what, ves_fields *fields);
-const ves_node *ves_fields_find(const ves_fields *fields, const char *name);
+const ves_field *ves_fields_field(const ves_fields *fields, const char *name); /* NULL: not in the table */
+const ves_node *ves_fields_find(const ves_fields *fields, const char *name);   /* NULL: not given */
 bool ves_fields_excused(const ves_fields *fields, const char *name);
 
 /* names.c; formulas: the names stand in formulas */
@@ -194,6 +196,10 @@ void ves_vary_moves(ves_reader *reader, const ves_node *vary, const ves_named *c
 /* sections */
 void ves_reader_curves(ves_reader *reader, const ves_fields *root);
 void ves_reader_patches_section(ves_reader *reader, const ves_fields *root);
+/* operators.c, conditions.c: parts of a PDE patch. The operator, whose order the conditions follow, first. */
+void ves_reader_operator(ves_reader *reader, const ves_node *node, ves_patch_def *patch);
+void ves_reader_conditions(ves_reader *reader, const ves_named *name, const ves_node *list,
+                           ves_patch_def *patch);
 void ves_reader_places(ves_reader *reader, const ves_fields *root);
 void ves_reader_settings(ves_reader *reader, const ves_fields *root); /* shape, validity, quadrature */
 void ves_reader_shape(ves_reader *reader, const ves_node *node);

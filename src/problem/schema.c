@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/order.h"
 #include "problem/problem.h"
 
 #define END                                                                                                  \
@@ -49,26 +50,31 @@ static const ves_entry curve[] = {
     END};
 
 static const ves_entry operator_keys[] = {
-    {{"power", VES_COUNT, .required = true, .min = 1, .max = 2, .about = "N of (d_uu + a^2 d_vv)^N: 1 needs two conditions, 2 needs four"}, "power: 2", NULL},
+    {{"power", VES_COUNT, .min = 1, .max = VES_POWER_MAX, .fallback = NAN, .about = "N of (d_uu + a^2 d_vv)^N X = 0, an equation of order 2N: it needs 2N conditions"}, "power: 2", NULL},
     {{"a", VES_NUMBER, .unit = "1", .min = 0, .max = 1e6, .fallback = 1, .about = "smoothing parameter: how fast the ends are forgotten inside; 0 is straight or cubic in u"}, "a: 0.925", NULL},
-    LATER("coefficients", "operators with general coefficients"),
-    LATER("x", "an operator of its own for each coordinate"),
-    LATER("y", "an operator of its own for each coordinate"),
-    LATER("z", "an operator of its own for each coordinate"),
+    {{"coefficients", VES_NUMBERS, .unit = "1", .about = "[c0, ..., cN] instead of power and a, N = 1 to 6: c0 d_u^(2N) X + c1 d_u^(2N-2) d_v^2 X + ... + cN d_v^(2N) X = 0; it must be elliptic, c0 t^N + c1 t^(N-1) + ... + cN > 0 for all t >= 0, as it is when all are positive"}, "coefficients: [1, 2, 1]", NULL},
+    {{"x", VES_NUMBERS, .unit = "1", .about = "with y and z: coefficients as above, for each coordinate its own"}, "x: [1, 2, 1]", NULL},
+    {{"y", VES_NUMBERS, .unit = "1", .about = "as x"}, "y: [1, 2, 1]", NULL},
+    {{"z", VES_NUMBERS, .unit = "1", .about = "as x"}, "z: [1, 0.5, 2]", NULL},
+    END};
+
+static const ves_entry difference[] = {
+    {{"curve", VES_CURVE, .about = "a curve, its weight a binomial number"}, "p1", NULL},
     END};
 
 static const ves_entry condition_keys[] = {
-    {{"u", VES_NUMBER, .required = true, .unit = "1", .about = "where: 0 or 1, the ends of the patch"}, "u: 0", NULL},
-    {{"derivative", VES_COUNT, .min = 0, .max = HUGE_VAL, .about = "0: the surface itself; 1: X_u"}, "derivative: 1", NULL},
+    {{"u", VES_NUMBER, .required = true, .unit = "1", .min = 0, .max = 1, .about = "where across the patch: 0 and 1 are its ends; conditions inside amplify fine detail of their curves (vesica check tells how much)"}, "u: 0.5", NULL},
+    {{"derivative", VES_COUNT, .min = 0, .max = VES_CONDITIONS_MAX - 1, .about = "k of d_u^k X, less than the order: 0: the surface itself; 1: X_u"}, "derivative: 1", NULL},
     {{"position", VES_CURVE, .about = "the curve that the surface meets"}, "position: p1", NULL},
-    {{"field", VES_CURVE, .about = "X_u = scale * field"}, "field: ring", NULL},
-    {{"from", VES_CURVE, .about = "with `to`: X_u = scale * (to - from)"}, "from: p1", NULL},
-    {{"to", VES_CURVE, .about = "with `from`: X_u = scale * (to - from)"}, "to: d1", NULL},
+    {{"field", VES_CURVE, .about = "d_u^k X = scale * field"}, "field: ring", NULL},
+    {{"from", VES_CURVE, .about = "with `to`: d_u^k X = scale * (to - from)"}, "from: p1", NULL},
+    {{"to", VES_CURVE, .about = "with `from`: d_u^k X = scale * (to - from)"}, "to: d1", NULL},
+    {{"differences", KIND(VES_LIST), .about = "k + 1 curves [p0, ..., pk] for derivative k, as drawn one behind the other along u: d_u^k X = scale * their k-th difference, p1 - p0, p2 - 2 p1 + p0, ...; a scale of 1/h^k makes it the derivative when they are h apart"}, "differences: [p1, p2, p3]", difference},
     {{"scale", VES_NUMBER, .fallback = 1, .about = "length of the derivative"}, "scale: 2", NULL},
     END};
 
 static const ves_entry condition[] = {
-    {{"condition", KIND(VES_MAP), .about = "the surface or its derivative along one end"}, "{u: 0, derivative: 1, from: p1, to: d1, scale: 2}", condition_keys},
+    {{"condition", KIND(VES_MAP), .about = "the surface or a derivative of it along one curve u = constant"}, "{u: 0, derivative: 1, from: p1, to: d1, scale: 2}", condition_keys},
     END};
 
 static const ves_entry surface_keys[] = {
@@ -82,8 +88,8 @@ static const ves_entry domain_keys[] = {
     END};
 
 static const ves_entry patch_keys[] = {
-    {{"operator", KIND(VES_MAP), .about = "the partial differential equation: (d_uu + a^2 d_vv)^power X = 0"}, "operator: {power: 2, a: 1}", operator_keys},
-    {{"conditions", KIND(VES_LIST), .about = "what the surface meets at its ends: 2 * power of them"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
+    {{"operator", KIND(VES_MAP), .about = "the partial differential equation: (d_uu + a^2 d_vv)^power X = 0, or one with coefficients"}, "operator: {power: 2, a: 1}", operator_keys},
+    {{"conditions", KIND(VES_LIST), .about = "what the surface meets, at its ends and inside: as many as the order, 2 * power, none of them twice"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
     {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved exactly; 0: all that matter at the start, at least 40; the rest goes into the remainder"}, "modes: 8", NULL},
     {{"surface", KIND(VES_MAP), .about = "instead of operator and conditions: the surface itself; edges of it that lie on each other are joined, but not with those of other patches"}, "surface: {formula: [u, v, \"u*v\"]}", surface_keys},
     {{"periodic", VES_FLAG, .fallback = 1, .about = "the surface closes in v (only with surface)"}, "periodic: false", NULL},

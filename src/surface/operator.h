@@ -9,9 +9,8 @@
 
 #include <stdbool.h>
 
+#include "base/order.h"
 #include "vesica/status.h"
-
-enum { VES_POWER_MAX = 20, VES_GENERAL_MAX = 6, VES_PARAMETERS_MAX = VES_GENERAL_MAX + 1 };
 
 typedef struct ves_operator {
     int power; /* N: 1 .. VES_POWER_MAX; general: 1 .. VES_GENERAL_MAX */

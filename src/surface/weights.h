@@ -15,8 +15,6 @@
 
 #include "surface/operator.h"
 
-enum { VES_CONDITIONS_MAX = 2 * VES_POWER_MAX };
-
 /* Where a condition stands: the d-th derivative at u. */
 typedef struct ves_knot {
     double u;

@@ -14,6 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "base/order.h"
 #include "base/random.h"
 #include "fuzz/parts.h"
 #include "problem/problem.h"
@@ -30,6 +31,28 @@ static void check_args(const ves_problem *p, const ves_args *args)
         for (int i = 0; curves && i < arg->count; i++)
             require(arg->ref[i] >= 0 && arg->ref[i] < p->curves, "a curve that is none");
     }
+}
+
+static void check_condition(const ves_problem *p, const ves_condition *c, int order)
+{
+    require(c->u >= 0 && c->u <= 1 && c->derivative >= 0 && c->derivative < order, "a condition nowhere");
+    require(c->scale == -1 || (c->scale >= p->slots && c->scale < p->block), "a scale outside the block");
+    for (int s = 0; s < c->shares; s++)
+        require(c->share[s].curve >= 0 && c->share[s].curve < p->curves && c->share[s].factor != 0,
+                "a share");
+}
+
+static void check_pde(const ves_problem *p, const ves_patch_def *patch)
+{
+    int numbers = patch->general ? patch->power + 1 : 1;
+    require(patch->power >= 1 && patch->power <= (patch->general ? VES_GENERAL_MAX : VES_POWER_MAX),
+            "a power");
+    require(patch->operators == 1 || (patch->general && patch->operators == 3), "operators");
+    for (int k = 0; k < patch->operators; k++)
+        require(patch->parameter[k] >= p->slots && patch->parameter[k] + numbers <= p->block,
+                "an operator outside the block");
+    require(patch->conditions == 2 * patch->power, "conditions");
+    for (int i = 0; i < patch->conditions; i++) check_condition(p, &patch->condition[i], patch->conditions);
 }
 
 /* What the plan takes for granted. */
@@ -50,16 +73,8 @@ static void check_problem(const ves_problem *p)
     }
     for (int k = 0; k < p->patches; k++) {
         const ves_patch_def *patch = &p->patch[k];
-        bool pde = patch->kind == VES_PATCH_PDE, formula = patch->kind == VES_PATCH_FORMULA;
-        if (pde)
-            require(patch->conditions == 2 * patch->power && patch->parameter[0] >= p->slots &&
-                        patch->parameter[0] < p->block,
-                    "a patch");
-        for (int i = 0; pde && i < patch->conditions; i++)
-            for (int s = 0; s < patch->condition[i].shares; s++)
-                require(patch->condition[i].share[s].curve >= 0 &&
-                            patch->condition[i].share[s].curve < p->curves,
-                        "a condition");
+        bool formula = patch->kind == VES_PATCH_FORMULA;
+        if (patch->kind == VES_PATCH_PDE) check_pde(p, patch);
         for (int i = 0; formula && i < 3; i++)
             require(patch->formula[i] != NULL, "a surface without a formula");
     }
@@ -168,6 +183,9 @@ static const char *const dictionary[] = {
     "operator: ",
     "conditions: [",
     "power: ",
+    "coefficients: [",
+    "differences: [",
+    "u: 0.5, ",
     "a: ",
     "u: ",
     "derivative: ",

@@ -1,0 +1,250 @@
+/* Conditions: what a patch meets at its ends and inside, and by how much it departs from a lower order. */
+#include "problem/reader.h"
+
+#include <math.h>
+#include <string.h>
+
+/* What holds for all conditions of one list. */
+typedef struct place {
+    ves_reader *reader;
+    int order;  /* 2N; 0: not known, after an error */
+    bool raise; /* they say how far the surface departs */
+} place;
+
+/* One condition that is being read. */
+typedef struct item {
+    const place *at;
+    const ves_node *node;
+    ves_fields f;
+    ves_condition *out;
+    bool unclear; /* its derivative could not be read */
+} item;
+
+static const ves_entry *condition_table(void)
+{
+    const ves_entry *patch = ves_schema_find(ves_schema_root.table, "patches")->table->table;
+    return ves_schema_find(patch, "conditions")->table->table;
+}
+
+static const ves_node *find(const item *i, const char *name)
+{
+    return ves_fields_find(&i->f, name);
+}
+
+/* The curve of a condition, times its scale, is a length. */
+static void check_curve_dim(const item *i, const ves_node *node, ves_dim factor)
+{
+    ves_reader *reader = i->at->reader;
+    ves_dim dim = {0};
+    const ves_dim length = {.m = 6};
+    const ves_named *curve = node->kind == VES_NODE_WORD ? ves_names_find(&reader->curves, node->text) : NULL;
+    if (!reader->dimensions || !curve || curve->index < 0) return;
+    if (!ves_dim_multiply(reader->curve[curve->index].dim, factor, 1, &dim) || ves_dim_equal(dim, length))
+        return;
+    char found[64];
+    ves_dim_describe(dim, found);
+    ves_reader_error(reader, VES_UNIT, node, "points of \"%s\"%s must be a length (m), found %s", curve->text,
+                     find(i, "scale") ? ", times the scale," : "", found);
+}
+
+/* --- which keys go together --- */
+
+static bool excused(const item *i)
+{
+    static const char *const name[] = {"position", "field", "from", "to", "differences", "derivative"};
+    for (size_t k = 0; k < sizeof name / sizeof *name; k++)
+        if (ves_fields_excused(&i->f, name[k])) return true;
+    return false;
+}
+
+/* Of those that say what the surface meets. */
+static void check_own(const item *i, bool any)
+{
+    ves_reader *reader = i->at->reader;
+    const ves_node *position = find(i, "position");
+    int derivative = i->out->derivative;
+    if (!any && derivative == 0)
+        ves_reader_error(reader, VES_NAME, i->node, "\"condition\" lacks the key \"position\"");
+    else if (!any)
+        ves_reader_error(reader, VES_NAME, i->node,
+                         "\"condition\" lacks \"field\", \"from\" and \"to\", or \"differences\"");
+    else if (position && derivative)
+        ves_reader_error(reader, VES_SYNTAX, ves_fields_field(&i->f, "position")->word,
+                         "a derivative needs \"field\", \"from\" and \"to\", or \"differences\"; "
+                         "\"position\" goes without derivative");
+    else if (!position && !derivative)
+        ves_reader_error(reader, VES_SYNTAX, i->node,
+                         "\"field\", \"from\", \"to\" and \"differences\" need \"derivative: 1\" or more");
+    else if (position && find(i, "scale"))
+        ves_reader_error(reader, VES_SYNTAX, ves_fields_field(&i->f, "scale")->word,
+                         "\"scale\" belongs to derivatives, not to a position");
+}
+
+/* Of those that say how far it departs. */
+static void check_departure(const item *i, bool any)
+{
+    if (find(i, "position"))
+        ves_reader_error(i->at->reader, VES_SYNTAX, ves_fields_field(&i->f, "position")->word,
+                         "\"raise\" says how far the surface departs from that of the lower order: by a "
+                         "\"field\", not to a \"position\"");
+    else if (!any && find(i, "scale"))
+        ves_reader_error(i->at->reader, VES_NAME, ves_fields_field(&i->f, "scale")->word,
+                         "\"scale\" has nothing to scale: \"field\" is missing");
+}
+
+static void check_form(const item *i)
+{
+    ves_reader *reader = i->at->reader;
+    const ves_node *from = find(i, "from"), *to = find(i, "to");
+    int forms = (find(i, "position") != NULL) + (find(i, "field") != NULL) + (from || to) +
+                (find(i, "differences") != NULL);
+    if (excused(i)) return;
+    if (forms > 1)
+        ves_reader_error(reader, VES_SYNTAX, i->node,
+                         "a condition is one of position, field, from and to, or differences");
+    else if (!from != !to)
+        ves_reader_error(reader, VES_NAME, i->node, "\"condition\" lacks the key \"%s\"",
+                         from ? "to" : "from");
+    else if (i->at->raise)
+        check_departure(i, forms > 0);
+    else
+        check_own(i, forms > 0);
+}
+
+/* --- values --- */
+
+static double place_of(const item *i)
+{
+    const ves_field *u = ves_fields_field(&i->f, "u");
+    double value = u->node ? ves_reader_constant(i->at->reader, u->node, u->key) : -1;
+    return isnan(value) ? -1 : value;
+}
+
+static int derivative_of(item *i)
+{
+    const ves_field *d = ves_fields_field(&i->f, "derivative");
+    int before = i->at->reader->errors;
+    long k = d->node ? ves_reader_count(i->at->reader, d->node, d->key) : 0;
+    i->unclear = i->at->reader->errors > before;
+    if (i->unclear) return 0;
+    if (i->at->order && k >= i->at->order)
+        ves_reader_error(i->at->reader, VES_RANGE, d->node,
+                         "\"derivative\" must be less than the order of the equation, %d, got %ld",
+                         i->at->order, k);
+    return (int)k;
+}
+
+static ves_dim scale_of(const item *i)
+{
+    ves_reader *reader = i->at->reader;
+    const ves_field *scale = ves_fields_field(&i->f, "scale");
+    if (!scale->node) return (ves_dim){0};
+    i->out->scale = ves_reader_place(reader, scale->node, scale->key);
+    const ves_formula *formula = i->out->scale >= 0 ? reader->number[i->out->scale - reader->slots] : NULL;
+    return formula ? ves_formula_dim(formula) : (ves_dim){.any = true};
+}
+
+static void share_add(const item *i, ves_share *share, const ves_node *curve, double factor, ves_dim scale)
+{
+    int index = curve ? ves_reader_curve(i->at->reader, curve) : -1;
+    if (index < 0) return;
+    i->at->reader->curve_used[index] = true;
+    share[i->out->shares++] = (ves_share){index, factor};
+    check_curve_dim(i, curve, scale);
+}
+
+/* sum_i (-1)^(k-i) C(k, i) p_i, the k-th difference [Ugail 2005, eqs 30-33] */
+static void differences(const item *i, const ves_node *list, ves_share *share, ves_dim scale)
+{
+    double factor = list->count % 2 ? 1 : -1;
+    for (int k = 0; k < list->count; k++) {
+        share_add(i, share, list->item[k], factor, scale);
+        factor *= -(double)(list->count - 1 - k) / (k + 1);
+    }
+}
+
+static bool check_differences(const item *i, const ves_node *list)
+{
+    int found = list->kind == VES_NODE_LIST ? list->count : 0, wanted = i->out->derivative + 1;
+    if (found && (found == wanted || i->unclear)) return true;
+    if (!found)
+        ves_reader_error(i->at->reader, VES_SYNTAX, list,
+                         "\"differences\" must be a list of curves [p0, p1, ...]");
+    else if (i->out->derivative || i->at->raise)
+        ves_reader_error(i->at->reader, VES_SYNTAX, list,
+                         "\"differences\" for derivative %d needs %d curve%s, found %d", i->out->derivative,
+                         wanted, wanted == 1 ? "" : "s", found);
+    return false;
+}
+
+static void shares_of(const item *i, ves_dim scale)
+{
+    static const char *const plain[] = {"position", "field", "to"};
+    const ves_node *list = find(i, "differences");
+    bool differs = list && check_differences(i, list);
+    ves_share *share =
+        ves_arena_take(i->at->reader->arena, (size_t)(differs ? list->count : 4), sizeof *share);
+    if (!ves_reader_memory(i->at->reader, share)) return;
+    i->out->share = share;
+    if (differs) {
+        differences(i, list, share, scale);
+        return;
+    }
+    for (int k = 0; k < 3; k++) share_add(i, share, find(i, plain[k]), 1, scale);
+    share_add(i, share, find(i, "from"), -1, scale);
+}
+
+static void read_condition(const place *at, const ves_node *node, ves_condition *out)
+{
+    item i = {.at = at, .node = node, .out = out};
+    *out = (ves_condition){.mark = ves_reader_mark(at->reader, node), .scale = -1, .u = -1};
+    if (!ves_fields_read(at->reader, node, condition_table(), "condition", &i.f)) return;
+    out->u = place_of(&i);
+    out->derivative = derivative_of(&i);
+    if (!i.unclear) check_form(&i);
+    shares_of(&i, scale_of(&i));
+}
+
+/* --- all of a patch --- */
+
+static void check_twice(ves_reader *reader, const ves_patch_def *patch)
+{
+    for (int k = 0; k < patch->conditions; k++)
+        for (int i = 0; i < k; i++) {
+            const ves_condition *a = &patch->condition[i], *b = &patch->condition[k];
+            if (a->u != b->u || a->derivative != b->derivative || a->u < 0) continue;
+            if (b->derivative > 1)
+                ves_reader_fail(reader, VES_SINGULAR, b->mark, "derivative %d at u = %g is given twice",
+                                b->derivative, b->u);
+            else
+                ves_reader_fail(reader, VES_SINGULAR, b->mark, "the %s at u = %g is given twice",
+                                b->derivative ? "derivative" : "position", b->u);
+            break;
+        }
+}
+
+static bool is_list(ves_reader *reader, const ves_node *list, const char *name, const char *example)
+{
+    if (list->kind == VES_NODE_LIST) return true;
+    ves_reader_error(reader, VES_SYNTAX, list, "\"%s\" must be a list [%s, ...]", name, example);
+    return false;
+}
+
+void ves_reader_conditions(ves_reader *reader, const ves_named *name, const ves_node *list,
+                           ves_patch_def *patch)
+{
+    int wanted = 2 * patch->power;
+    if (!is_list(reader, list, "conditions", "{u: 0, position: CURVE}")) return;
+    if (patch->power && list->count != wanted)
+        ves_reader_error(reader, VES_SINGULAR, name->word,
+                         "patch \"%s\" of order %d needs %d conditions, found %d", name->text, wanted, wanted,
+                         list->count);
+    if (list->count > VES_CONDITIONS_MAX) return;
+    ves_condition *condition = ves_arena_take(reader->arena, (size_t)list->count, sizeof *condition);
+    if (!ves_reader_memory(reader, condition)) return;
+    const place at = {reader, wanted, false};
+    for (int k = 0; k < list->count; k++) read_condition(&at, list->item[k], &condition[k]);
+    patch->condition = condition;
+    patch->conditions = list->count;
+    check_twice(reader, patch);
+}

@@ -1,0 +1,171 @@
+/* Patches as files write them: orders, coefficients and conditions anywhere, against surfaces in closed
+ * form. */
+#include <criterion/criterion.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "bed.h"
+
+/* x = e^(a u) cos v, y = e^(a u) sin v solve (d_uu + a^2 d_vv) X = 0, and z = 1 + u - u^2 is a mean of every
+ * order from 4 on: c_k(u) is d_u^k X there. */
+#define CURVE(name, k, u, z)                                                                                 \
+    "  " name ": {circle: {radius: a^" #k "*exp(a*" #u "), centre: [0, 0, " #z "]}}\n"
+#define HEAD                                                                                                 \
+    "vesica: 1\nparameters: {a: 0.7}\ncurves:\n" CURVE("x0", 0, 0, 1) CURVE("x3", 0, 0.3, 1.21)              \
+        CURVE("x6", 0, 0.6, 1.24) CURVE("x1", 0, 1, 1) CURVE("d0", 1, 0, 1) CURVE("d3", 1, 0.3, 0.4)         \
+            CURVE("d1", 1, 1, -1) CURVE("e5", 2, 0.5, -2) CURVE("e1", 2, 1, -2) CURVE("f0", 3, 0, 0)
+
+static void expect_surface(const char *operator, const char * conditions)
+{
+    char text[4000];
+    enum { POINTS = 35 };
+    double u[POINTS], v[POINTS], X[18 * POINTS], worst = 0;
+    snprintf(text, sizeof text,
+             HEAD "patches: {w: {operator: %s, conditions: [%s]}}\nminimize: area\n", operator, conditions);
+    bed b = bed_with(text, NULL, 8, 8);
+    for (int k = 0; k < POINTS; k++) u[k] = k / (POINTS - 1.), v[k] = 0.9 * k;
+    cr_assert_eq(ves_plan_points(b.plan, 0, POINTS, u, v, X), VES_OK);
+    for (int k = 0; k < POINTS; k++) {
+        double r = exp(0.7 * u[k]), want[3] = {r * cos(v[k]), r * sin(v[k]), 1 + u[k] - u[k] * u[k]};
+        for (int c = 0; c < 3; c++) worst = fmax(worst, fabs(X[c * POINTS + k] - want[c]));
+    }
+    cr_expect(worst < 1e-13, "%s, %s: off by %.2g", operator, conditions, worst);
+    bed_clear(&b);
+}
+
+Test(patches, every_layout_meets_the_surface_that_its_conditions_are_of)
+{
+    static const char *const power[] = {
+        "{u: 0, position: x0}, {u: 0.3, position: x3}, {u: 0.6, position: x6}, {u: 1, position: x1}",
+        "{u: 1, position: x1}, {u: 0, position: x0}, {u: 0.3, position: x3}, {u: 0.3, derivative: 1, field: "
+        "d3}",
+        "{u: 0, position: x0}, {u: 0, derivative: 3, field: f0}, {u: 1, derivative: 1, field: d1}, {u: 1, "
+        "position: x1}"};
+    for (size_t k = 0; k < sizeof power / sizeof *power; k++) expect_surface("{power: 2, a: a}", power[k]);
+    expect_surface(
+        "{power: 3, a: a}",
+        "{u: 0, position: x0}, {u: 0.3, position: x3}, {u: 0.6, position: x6}, {u: 1, position: x1}, "
+        "{u: 1, derivative: 1, field: d1}, {u: 1, derivative: 2, field: e1}");
+    expect_surface(
+        "{power: 4, a: a}",
+        "{u: 0, position: x0}, {u: 0.3, position: x3}, {u: 0.6, position: x6}, {u: 1, position: x1}, "
+        "{u: 0, derivative: 1, field: d0}, {u: 1, derivative: 1, field: d1}, {u: 1/2, derivative: 2, "
+        "field: e5}, {u: 1, derivative: 2, field: e1}");
+}
+
+/* s^2 - (0.49 + b) s + 0.49 b has the root s = a^2: e^(a u) cos v solves the equation whatever b is. */
+Test(patches, coefficients_make_the_operator)
+{
+    static const char conditions[] =
+        "{u: 0, position: x0}, {u: 1, position: x1}, {u: 0, derivative: 1, field: "
+        "d0}, {u: 1, derivative: 1, field: d1}";
+    expect_surface("{coefficients: [1, 2*a^2, a^4]}", conditions);
+    expect_surface("{coefficients: [2, 2*(0.49 + 3), 2*0.49*3]}", conditions);
+    expect_surface("{x: [1, 2*a^2, a^4], y: [1, 0.49 + 5, 0.49*5], z: [1, 1, 9]}", conditions);
+    expect_surface(
+        "{coefficients: [1, 3*a^2, 3*a^4, a^6]}",
+        "{u: 0, position: x0}, {u: 0.3, position: x3}, {u: 0.6, position: x6}, {u: 1, position: x1}, "
+        "{u: 1, derivative: 1, field: d1}, {u: 1, derivative: 2, field: e1}");
+}
+
+/* Which of the curves have which shares in the last condition of this derivative. */
+Test(patches, differences_are_those_of_the_curves_in_their_order)
+{
+    static const struct {
+        const char *text;
+        int derivative;
+        double factor[4]; /* of x0, x3, x6, x1 */
+    } table[] = {{"derivative: 1, differences: [x0, x3]", 1, {-1, 1, 0, 0}},
+                 {"derivative: 1, from: x0, to: x3", 1, {-1, 1, 0, 0}},
+                 {"derivative: 2, differences: [x0, x3, x6]", 2, {1, -2, 1, 0}},
+                 {"derivative: 3, differences: [x0, x3, x6, x1], scale: 2", 3, {-1, 3, -3, 1}},
+                 {"derivative: 3, from: x6, to: x1", 3, {0, 0, -1, 1}},
+                 {"derivative: 2, field: x6", 2, {0, 0, 1, 0}}};
+    static const char *const name[] = {"x0", "x3", "x6", "x1"};
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        char text[4000];
+        snprintf(text, sizeof text,
+                 HEAD
+                 "patches: {w: {operator: {power: 2}, conditions: [{u: 0, position: x0}, {u: 0, derivative: "
+                 "1, field: d0}, {u: 0.25, %s}, {u: 1, position: x1}]}}\n",
+                 table[k].text);
+        bed b = bed_with(text, NULL, 8, 8);
+        const ves_condition *c = &b.problem->patch[0].condition[2];
+        cr_expect(c->u == 0.25 && c->derivative == table[k].derivative);
+        cr_expect_eq(c->scale >= 0, strstr(table[k].text, "scale") != NULL);
+        double sum[4] = {0};
+        for (int s = 0; s < c->shares; s++)
+            for (int i = 0; i < 4; i++)
+                if (!strcmp(b.problem->curve[c->share[s].curve].name, name[i])) sum[i] += c->share[s].factor;
+        for (int i = 0; i < 4; i++)
+            cr_expect_eq(sum[i], table[k].factor[i], "%s: %s has %g", table[k].text, name[i], sum[i]);
+        bed_clear(&b);
+    }
+}
+
+#define BOWL(head, operator)                                                                                 \
+    "vesica: 1\n" head                                                                                       \
+    "curves: {p: {bspline: {points: [[1, 0, 0], [0, 1.2, 0.1], [-1, 0, 0], [0, -1, 0]]}}, "                  \
+    "q: {circle: {radius: 0.6, centre: [0, 0.1, 1.5]}}, m: {like: p, apply: [{dilate: 1.2}, {translate: "    \
+    "[0, 0, "                                                                                                \
+    "0.5]}]}}\n"                                                                                             \
+    "patches:\n  w:\n    operator: "                                                                         \
+    operator"\n    conditions: [{u: 0, position: p}, {u: 1, position: q}, {u: 0.4, position: m}, {u: 0, "    \
+            "derivative: 2, "                                                                                \
+            "differences: [p, m, q], scale: 1.5}]\n    modes: 3\nminimize: area\n"
+
+/* Central differences of the objective. */
+static void expect_gradient(const bed *b, const double *at)
+{
+    int n = b->problem->variables;
+    double gradient[8], x[8];
+    ves_verdict verdict = {.gradient = gradient};
+    ves_ask ask = {.x = at, .cutoff = HUGE_VAL, .want = VES_WANT_GRADIENT};
+    cr_assert_eq(ves_plan_evaluate(b->plan, &ask, &verdict), VES_OK);
+    cr_assert_eq(verdict.status, VES_OK, "%s", ves_status_text(verdict.status));
+    for (int k = 0; k < n; k++) {
+        const double h = 1e-5;
+        memcpy(x, at, sizeof *x * (size_t)n);
+        x[k] = at[k] + h;
+        double up = value_at(b, x);
+        x[k] = at[k] - h;
+        double want = (up - value_at(b, x)) / (2 * h);
+        cr_expect(fabs(gradient[k] - want) < 1e-8 * fmax(1, fabs(want)), "variable %d: got %.12g, want %.12g",
+                  k, gradient[k], want);
+    }
+}
+
+Test(patches, gradients_go_through_coefficients)
+{
+    bed b =
+        bed_with(BOWL("variables: {c: [0.1, 1.3, 2], d: [0.1, 0.6, 2]}\n", "{coefficients: [1, c, 'c*d']}"),
+                 NULL, 12, 24);
+    expect_gradient(&b, (double[]){1.3, 0.6});
+    bed_clear(&b);
+    b = bed_with(BOWL("variables: {c: [0.1, 1.3, 2], d: [0.1, 0.6, 2]}\n",
+                      "{x: [1, c, d], y: [d, 1, 1.5], z: [1, 2, c]}"),
+                 NULL, 12, 24);
+    expect_gradient(&b, (double[]){1.1, 0.8});
+    bed_clear(&b);
+}
+
+Test(patches, coefficients_that_are_not_elliptic_are_a_verdict_with_its_numbers)
+{
+    bed b = bed_with(BOWL("variables: {c: [-3, 1.3, 2]}\n", "{x: [1, 2, 1], y: [1, c, 1], z: [1, 2, 1]}"),
+                     NULL, 8, 8);
+    double x = -2.5, constraint[4];
+    char text[1000];
+    ves_verdict verdict = {.constraint = constraint};
+    ves_ask ask = {.x = &x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+    cr_assert_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_OK);
+    cr_expect_eq(verdict.status, VES_NOT_ELLIPTIC);
+    ves_plan_why(b.plan, verdict.status, "here", b.diag);
+    ves_diag_text(b.diag, 0, text, sizeof text);
+    cr_expect(
+        strstr(text,
+               "test.yaml:5:3: warning: here: the operator of patch \"w\" for y is not elliptic: "
+               "c0 t^2 + c1 t + c2 is -0.389 at t = 0.833; waves would run along u instead of dying out"),
+        "%s", text);
+    bed_clear(&b);
+}
