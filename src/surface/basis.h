@@ -35,6 +35,7 @@ typedef struct ves_basis {
 } ves_basis;
 
 void ves_mode_init(const ves_operator *op, double n, bool slopes, ves_mode *mode);
+double ves_mode_size(const ves_mode *mode); /* the rate: about the largest |r| */
 void ves_basis_eval(const ves_mode *mode, ves_lanes u, const ves_basis *basis);
 
 void ves_basis_centred(const ves_mode *mode, ves_lanes u, const ves_basis *basis);

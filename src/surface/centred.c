@@ -94,14 +94,13 @@ void ves_basis_centred(const ves_mode *mode, ves_lanes u, const ves_basis *basis
 {
     int members = 2 * mode->op->power, orders = basis->orders;
     int parameters = basis->slope ? ves_operator_parameters(mode->op) : 0;
-    double size = mode->n * (mode->op->general ? mode->factor.rate : mode->op->parameter[0]);
-    double kappa = size > 1 ? ldexp(1, (int)ceil(log2(size))) : 1;
+    double size = ves_mode_size(mode), kappa = size > 1 ? ldexp(1, (int)ceil(log2(size))) : 1;
     series s = {.terms = enough(mode, size, orders)};
     if (mode->op->general)
         series_general(mode, kappa, parameters > 0, &s);
     else
         series_power(mode, kappa, parameters > 0, &s);
-    ves_twos x = {(u - 0.5) * kappa, {0}};
+    ves_twos x = ves_twos_shift(ves_twos_sum(u, -0.5 + (ves_lanes){0}), kappa);
     basis->power[0] = ves_twos_of(ves_two_of(1));
     for (int i = 1; i < 2 * s.terms + members; i++) {
         ves_two by = ves_two_divide(ves_two_of(1), ves_two_of(i));

@@ -4,21 +4,29 @@
 
 #include "surface/basis.h"
 
-enum { K = VES_CONDITIONS_MAX, BLOCKS = K / VES_LANES, LANES = VES_LANES };
+enum { K = VES_CONDITIONS_MAX, BLOCKS = K / VES_LANES, LANES = VES_LANES, STEPS = 30 };
 
 _Static_assert(K % VES_LANES == 0, "rows are whole registers");
 
 /* --- bases --- */
 
-static const double SWITCH = 1.15; /* times N: below, centred; measured for N = 20, where both lose most */
+/* Times N: centred below, decaying above. Between NEAR and FAR that depends on the conditions where N > CLEAR
+ * (Navier's want the decaying basis, functions inside the centred one): the better conditioned is taken. Up to
+ * CLEAR either is good for 1e-15 here [measured: tests/weights_oracle.c]. */
+static const double SWITCH = 1.15, NEAR = 0.3, FAR = 1.3;
+enum { CLEAR = 16 };
+
+double ves_mode_size(const ves_mode *mode)
+{
+    return mode->n * (mode->op->general ? mode->factor.rate : mode->op->parameter[0]);
+}
 
 void ves_mode_init(const ves_operator *op, double n, bool slopes, ves_mode *mode)
 {
     *mode = (ves_mode){.op = op, .n = n};
     if (op->general) ves_factor_make(op, slopes, &mode->factor);
     /* roots of a general operator may be of different sizes: those near 0 want the centred one too */
-    double size = n * (op->general ? mode->factor.rate : op->parameter[0]);
-    mode->centred = size <= SWITCH * op->power + (op->general ? 4 : 0);
+    mode->centred = ves_mode_size(mode) <= SWITCH * op->power + (op->general ? 4 : 0);
 }
 
 void ves_basis_eval(const ves_mode *mode, ves_lanes u, const ves_basis *basis)
@@ -33,13 +41,12 @@ void ves_basis_eval(const ves_mode *mode, ves_lanes u, const ves_basis *basis)
 
 /* --- the condition matrix --- */
 
-/* a x = f: conditions j, members m. Scaled by powers of 2 so that each row and each column has an entry near
- * 1; then factored as L U with rows exchanged. */
+/* a x = f: conditions j, members m. Scaled by powers of 2, then factored as L U with rows exchanged. */
 typedef struct conditions {
     int n, parameters;
     ves_twos (*a)[BLOCKS];
     ves_two (*slope)[K][K]; /* [parameters]: the derivative of the scaled matrix */
-    double row[K], column[K];
+    double row[K], column[K], size[K];
     int origin[K]; /* which condition stands in this row now */
 } conditions;
 
@@ -105,27 +112,6 @@ static ves_two entry(const conditions *s, int j, int m)
     return ves_twos_lane(&s->a[j][m / LANES], m % LANES);
 }
 
-/* Condition j applied to each member. */
-static void matrix_fill(const ves_layout *layout, const ves_mode *mode, work *w)
-{
-    conditions *s = &w->s;
-    int n = s->n, orders = w->basis.orders = highest(layout) + 1;
-    for (int j = 0; j < n; j++)
-        for (int b = 0; b < BLOCKS; b++) s->a[j][b] = (ves_twos){{0}, {0}};
-    for (int first = 0; first < n; first += LANES) {
-        ves_lanes u;
-        for (int i = 0; i < LANES; i++) u[i] = layout->knot[first + i < n ? first + i : n - 1].u;
-        ves_basis_eval(mode, u, &w->basis);
-        for (int j = first; j < n && j < first + LANES; j++)
-            for (int m = 0; m < n; m++) {
-                int at = m * orders + layout->knot[j].derivative;
-                ves_twos_put(&s->a[j][m / LANES], m % LANES, ves_twos_lane(&w->basis.value[at], j - first));
-                for (int p = 0; p < s->parameters; p++)
-                    s->slope[p][j][m] = ves_twos_lane(&w->basis.slope[p * n * orders + at], j - first);
-            }
-    }
-}
-
 /* 2^-k with x 2^-k in [1/2, 1); 0 where x is 0 or no number. */
 static double unit_of(double x)
 {
@@ -135,31 +121,83 @@ static double unit_of(double x)
     return ldexp(1, -k);
 }
 
-/* false: a row or a column is zero. */
-static bool equilibrate(conditions *s)
+/* Of what size member m is on [0, 1]: as large as its values at the knots; those of a decaying basis, whose
+ * members are largest between, as its derivatives there in units of the rate. */
+static void member_size(const ves_mode *mode, const ves_basis *basis, int m, double *size)
 {
-    int n = s->n;
-    for (int j = 0; j < n; j++) {
+    double rate = ves_mode_size(mode), unit = 1;
+    for (int d = 0; d < (mode->centred ? 1 : basis->orders); d++, unit /= rate)
+        for (int i = 0; i < LANES; i++)
+            *size = fmax(*size, unit * fabs(basis->value[m * basis->orders + d].hi[i]));
+}
+
+/* Condition j applied to each member. */
+static void matrix_fill(const ves_layout *layout, const ves_mode *mode, work *w)
+{
+    conditions *s = &w->s;
+    int n = s->n, orders = w->basis.orders = highest(layout) + 1;
+    memset(s->a, 0, sizeof *s->a * (size_t)n);
+    for (int m = 0; m < K; m++) s->size[m] = 0;
+    for (int first = 0; first < n; first += LANES) {
+        ves_lanes u;
+        for (int i = 0; i < LANES; i++) u[i] = layout->knot[first + i < n ? first + i : n - 1].u;
+        ves_basis_eval(mode, u, &w->basis);
+        for (int m = 0; m < n; m++) {
+            member_size(mode, &w->basis, m, &s->size[m]);
+            for (int j = first; j < n && j < first + LANES; j++) {
+                int at = m * orders + layout->knot[j].derivative;
+                ves_twos_put(&s->a[j][m / LANES], m % LANES, ves_twos_lane(&w->basis.value[at], j - first));
+                for (int p = 0; p < s->parameters; p++)
+                    s->slope[p][j][m] = ves_twos_lane(&w->basis.slope[p * n * orders + at], j - first);
+            }
+        }
+    }
+}
+
+/* Columns times by[]. */
+static void scale_columns(conditions *s, const double by[K])
+{
+    for (int m = 0; m < s->n; m++) s->column[m] *= by[m];
+    for (int j = 0; j < s->n; j++)
+        for (int b = 0; b < BLOCKS; b++) {
+            ves_lanes unit = ves_lanes_at(by + b * LANES);
+            s->a[j][b].hi *= unit, s->a[j][b].lo *= unit;
+        }
+}
+
+static bool scale_rows(conditions *s)
+{
+    for (int j = 0; j < s->n; j++) {
         double largest = 0;
-        for (int m = 0; m < n; m++) largest = fmax(largest, fabs(entry(s, j, m).hi));
+        for (int m = 0; m < s->n; m++) largest = fmax(largest, fabs(entry(s, j, m).hi));
         if ((s->row[j] = unit_of(largest)) == 0) return false;
         for (int b = 0; b < BLOCKS; b++) s->a[j][b] = ves_twos_shift(s->a[j][b], s->row[j]);
     }
+    return true;
+}
+
+/* First every member is made one of size 1, then every condition: the cardinal function of a high derivative
+ * is tiny (at order 40 that of the 19th 1e-29), and its digits are lost beside those of the positions unless
+ * the unknowns are of one size. Then each column gets an entry near 1. false: a row or a column is zero. */
+static bool equilibrate(conditions *s)
+{
+    double by[K] = {0};
+    int n = s->n;
+    for (int m = 0; m < n; m++) s->column[m] = 1, by[m] = s->size[m] > 0 ? unit_of(s->size[m]) : 1;
+    scale_columns(s, by);
+    if (!scale_rows(s)) return false;
     for (int m = 0; m < n; m++) {
         double largest = 0;
         for (int j = 0; j < n; j++) largest = fmax(largest, fabs(entry(s, j, m).hi));
-        if ((s->column[m] = unit_of(largest)) == 0) return false;
+        if ((by[m] = unit_of(largest)) == 0) return false;
     }
-    for (int j = 0; j < n; j++)
-        for (int m = 0; m < n; m++) {
-            ves_two x = entry(s, j, m);
-            double by = s->column[m];
-            ves_twos_put(&s->a[j][m / LANES], m % LANES, (ves_two){x.hi * by, x.lo * by});
-            for (int p = 0; p < s->parameters; p++) {
+    scale_columns(s, by);
+    for (int p = 0; p < s->parameters; p++)
+        for (int j = 0; j < n; j++)
+            for (int m = 0; m < n; m++) {
                 ves_two *d = &s->slope[p][j][m];
-                *d = (ves_two){d->hi * s->row[j] * by, d->lo * s->row[j] * by};
+                *d = (ves_two){d->hi * s->row[j] * s->column[m], d->lo * s->row[j] * s->column[m]};
             }
-        }
     return true;
 }
 
@@ -205,10 +243,66 @@ static void solve(const conditions *s, ves_twos *x, ves_twos *w)
     for (int m = 0; m < n; m++) w[s->origin[m]] = x[m];
 }
 
-static ves_status prepare(const ves_layout *layout, const ves_mode *mode, work *w)
+/* --- which basis --- */
+
+/* The condition number of the matrix in the best scaling of rows and columns that there is: the spectral radius
+ * of |a| |a^-1| [Bauer 1963], by the power method. inverse: [member][condition]. */
+static double condition_of(int n, double (*a)[K], double (*inverse)[K])
 {
-    matrix_fill(layout, mode, w);
-    return equilibrate(&w->s) && factor(&w->s) ? VES_OK : VES_UNDETERMINED;
+    double x[K], y[K], radius = 0;
+    for (int j = 0; j < n; j++) x[j] = 1;
+    for (int step = 0; step < STEPS; step++) {
+        for (int m = 0; m < n; m++) {
+            y[m] = 0;
+            for (int j = 0; j < n; j++) y[m] += inverse[m][j] * x[j];
+        }
+        radius = 0;
+        for (int j = 0; j < n; j++) {
+            x[j] = 0;
+            for (int m = 0; m < n; m++) x[j] += a[j][m] * y[m];
+            radius = fmax(radius, x[j]);
+        }
+        for (int j = 0; j < n; j++) x[j] /= radius;
+    }
+    return radius;
+}
+
+/* Of the matrix that is filled; factors it. */
+static ves_status condition_find(work *w, double *condition)
+{
+    double a[K][K], inverse[K][K];
+    int n = w->s.n;
+    *condition = HUGE_VAL;
+    if (!equilibrate(&w->s)) return VES_UNDETERMINED;
+    for (int j = 0; j < n; j++)
+        for (int m = 0; m < n; m++) a[j][m] = fabs(entry(&w->s, j, m).hi);
+    if (!factor(&w->s)) return VES_UNDETERMINED;
+    for (int first = 0; first < n; first += LANES) {
+        for (int m = 0; m < n; m++) {
+            w->x[m] = (ves_twos){{0}, {0}};
+            if (m >= first && m < first + LANES) w->x[m].hi[m - first] = 1;
+        }
+        solve(&w->s, w->x, w->y);
+        for (int j = 0; j < n; j++)
+            for (int i = 0; i < LANES && first + i < n; i++) inverse[first + i][j] = fabs(w->y[j].hi[i]);
+    }
+    *condition = condition_of(n, a, inverse);
+    return isfinite(*condition) ? VES_OK : VES_UNDETERMINED;
+}
+
+/* Where both are possible, the basis with the smaller condition. */
+static void choose(const ves_layout *layout, ves_mode *mode, const work *w)
+{
+    double size = ves_mode_size(mode) / mode->op->power, condition[2];
+    if (mode->op->general || mode->op->power <= CLEAR || size < NEAR || size > FAR) return;
+    work trial = *w;
+    trial.s.parameters = 0, trial.basis.slope = NULL;
+    for (int centred = 0; centred < 2; centred++) {
+        mode->centred = centred;
+        matrix_fill(layout, mode, &trial);
+        condition_find(&trial, &condition[centred]);
+    }
+    mode->centred = condition[1] <= condition[0];
 }
 
 /* --- weights --- */
@@ -283,7 +377,9 @@ ves_status ves_exact_mode(const ves_layout *layout, const ves_operator *op, doub
     bool slopes = out->slope;
     ves_mode_init(op, n, slopes, &mode);
     work_init(layout, op, out->orders, slopes, room, &w);
-    bool good = prepare(layout, &mode, &w) == VES_OK;
+    choose(layout, &mode, &w);
+    matrix_fill(layout, &mode, &w);
+    bool good = equilibrate(&w.s) && factor(&w.s);
     for (int block = 0; block < nu && good; block += LANES) good = block_make(&mode, &w, nu, u, block, out);
     if (!good) clear(op, nu, out);
     return good ? VES_OK : VES_UNDETERMINED;
@@ -294,30 +390,9 @@ ves_status ves_exact_condition(const ves_layout *layout, const ves_operator *op,
 {
     ves_mode mode;
     work w;
-    double norm = 0, inverse = 0;
     ves_mode_init(op, n, false, &mode);
     work_init(layout, op, 1, false, room, &w);
+    choose(layout, &mode, &w);
     matrix_fill(layout, &mode, &w);
-    *condition = HUGE_VAL;
-    if (!equilibrate(&w.s)) return VES_UNDETERMINED;
-    for (int j = 0; j < w.s.n; j++) {
-        double sum = 0;
-        for (int m = 0; m < w.s.n; m++) sum += fabs(entry(&w.s, j, m).hi);
-        norm = fmax(norm, sum);
-    }
-    if (!factor(&w.s)) return VES_UNDETERMINED;
-    for (int first = 0; first < w.s.n; first += LANES) {
-        for (int m = 0; m < w.s.n; m++) {
-            w.x[m] = (ves_twos){{0}, {0}};
-            if (m >= first && m < first + LANES) w.x[m].hi[m - first] = 1;
-        }
-        solve(&w.s, w.x, w.y);
-        for (int i = 0; i < LANES; i++) {
-            double sum = 0;
-            for (int j = 0; j < w.s.n; j++) sum += fabs(w.y[j].hi[i]);
-            inverse = fmax(inverse, sum);
-        }
-    }
-    *condition = norm * inverse;
-    return VES_OK;
+    return condition_find(&w, condition);
 }

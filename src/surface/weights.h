@@ -9,7 +9,7 @@
  *
  * Conditions at the ends, orders 2 and 4, are solved in double precision (fast.c), all others in
  * double-double (exact.c): textbook bases lose every digit from order 14 on, these none.
- * test  manufactured solutions, MPFR oracle: see weights_oracle.c for the bars */
+ * test  MPFR oracle, every order: tests/weights_oracle.c states the bars */
 #ifndef VES_SURFACE_WEIGHTS_H
 #define VES_SURFACE_WEIGHTS_H
 
