@@ -474,16 +474,16 @@ Test(verdicts, a_start_that_cannot_be_measured_does_not_choose_the_grid)
     bed_clear(&b);
 }
 
-/* A needle beside the nodes of three grids in a row, seen by the first that is too fine to be chosen: two calm
- * steps would be enough, but there were not two. */
+/* A needle beside the nodes of two grids in a row (64 and 96), seen by the one before and by the first that is too
+ * fine to be chosen: two calm steps would be enough, but there were not two. */
 Test(verdicts, a_change_that_is_known_is_not_forgotten_after_a_calm_step)
 {
     bed b = bed_make(
         "vesica: 1\npatches: {s: {surface: {formula: [u, v, \"0\"]}, periodic: false, domain: {u: [0, 1], v: "
-        "[0, 1]}}}\nmeasures: {a: {integral: \"1 + exp(-((u - 0.129854)/0.0012)^2)\"}}\nexpect: [a > 0]\n",
+        "[0, 1]}}}\nmeasures: {a: {integral: \"1 + exp(-((u - 0.2940485)/0.0008)^2)\"}}\nexpect: [a > 0]\n",
         NULL);
     int grid[2];
     double change = ves_plan_grid(b.plan, grid);
-    cr_expect(grid[0] == 64 && change > 1e-4, "%d nodes along u, change %g", grid[0], change);
+    cr_expect(grid[0] == 96 && change > 1e-4, "%d nodes along u, change %g", grid[0], change);
     bed_clear(&b);
 }

@@ -25,8 +25,8 @@ typedef struct ves_plan ves_plan;
 
 typedef struct ves_plan_options {
     /* nodes along u, 5 to 4096, and along v, 5 to 32768, of each patch; 0: as the problem says; when that is
-     * `auto`: chosen. u times v is at most 262144 over the number of patches, or 64 * 264, whichever is more;
-     * one that is left to be chosen counts as 64 or 264. */
+     * `auto`: chosen. u times v is at most 262144 over the number of patches, or 128 * 512, whichever is more;
+     * one that is left to be chosen counts as 128 or 512. */
     int quadrature[2];
 } ves_plan_options;
 
@@ -43,7 +43,7 @@ void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
 /* The grid of level 0: nodes along u and v of each patch; level 1 has twice as many of both. Where it was
  * chosen: from 16 nodes along u, and along v enough to see the modes that are solved, each direction was
  * refined by half until two refinements in a row changed no measure (extremes left out) by more
- * than 1e-9 of its size, up to 64 and 264 nodes, at the start design or, if that cannot be measured or is a
+ * than 1e-9 of its size, up to 128 and 512 nodes, at the start design or, if that cannot be measured or is a
  * closed shape that encloses nothing, at the first of up to 31 others that can and does. Returns the largest
  * relative change that was left; NAN when nothing was chosen or nothing could be measured. */
 double ves_plan_grid(const ves_plan *plan, int quadrature[2]);

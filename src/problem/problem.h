@@ -19,7 +19,7 @@
 
 /* Grids: nodes along u and v (fewer could not tell a surface that is round from one that folds back: between
  * neighbours its normal would turn by more than 120 degrees), and what may be chosen of them at most. */
-enum { VES_NODES_LEAST = 5, VES_NODES_U = 4096, VES_NODES_V = 32768, VES_CHOSEN_U = 64, VES_CHOSEN_V = 264 };
+enum { VES_NODES_LEAST = 5, VES_NODES_U = 4096, VES_NODES_V = 32768, VES_CHOSEN_U = 128, VES_CHOSEN_V = 512 };
 
 /* Nodes of one of so many patches at most: 2^18 in all, so that both levels of a plan stay near 1 GB; but what
  * may be chosen is never too much. */

@@ -88,8 +88,8 @@ static void nodes_check(ves_reader *reader, const ves_node *node)
         "%d x %d nodes on every patch (%d in all) take too much memory: give at most %d, u times v%s", u, v,
         patches, most,
         q[0] && q[1] ? ""
-        : q[0]       ? "; up to 264 along v may be chosen"
-                     : "; up to 64 along u may be chosen");
+        : q[0]       ? "; up to 512 along v may be chosen"
+                     : "; up to 128 along u may be chosen");
 }
 
 void ves_reader_quadrature(ves_reader *reader, const ves_node *node)
