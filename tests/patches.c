@@ -169,3 +169,128 @@ Test(patches, coefficients_that_are_not_elliptic_are_a_verdict_with_its_numbers)
         "%s", text);
     bed_clear(&b);
 }
+
+/* --- raised orders, spines, remainders --- */
+
+enum { MANY = 40 };
+
+static void points_of(const char *text, double X[18 * MANY])
+{
+    double u[MANY], v[MANY];
+    bed b = bed_with(text, NULL, 8, 8);
+    for (int k = 0; k < MANY; k++) u[k] = k / (MANY - 1.), v[k] = 0.7 * k;
+    cr_assert_eq(ves_plan_points(b.plan, 0, MANY, u, v, X), VES_OK);
+    bed_clear(&b);
+}
+
+/* The largest difference of X, Xu ... Xvv. */
+static double apart(const double *X, const double *Y)
+{
+    double worst = 0;
+    for (int k = 0; k < 18 * MANY; k++) worst = fmax(worst, fabs(X[k] - Y[k]));
+    return worst;
+}
+
+#define VASE(rest)                                                                                           \
+    "vesica: 1\ncurves: {p: {bspline: {points: [[1, 0, 0], [0, 1.2, 0.1], [-1, 0, 0], [0, -1, 0]]}}, "       \
+    "q: {circle: {radius: 0.6, centre: [0, 0.1, 1.5]}}, f: {circle: {radius: 0.5, centre: [0, 0, 1]}}, "     \
+    "nil: {point: [0, 0, 0]}}\n"                                                                             \
+    "patches:\n  w:\n    operator: {power: 2, a: 0.8}\n"                                                     \
+    "    conditions: [{u: 0, position: p}, {u: 1, position: q}, {u: 0, derivative: 1, field: f}, {u: 1, "    \
+    "derivative: 1, field: f}]\n" rest "\nminimize: area\n"
+
+Test(patches, a_raised_order_leaves_the_surface_until_it_departs)
+{
+    static double low[18 * MANY], same[18 * MANY], away[18 * MANY], further[18 * MANY];
+    points_of(VASE(""), low);
+    points_of(VASE("    raise: [{u: 0, derivative: 2}, {u: 1, derivative: 2, field: nil}]"), same);
+    cr_expect(apart(low, same) < 1e-13, "off by %.2g", apart(low, same));
+    points_of(VASE("    modes: 12"), low);
+    points_of(VASE("    modes: 12\n    raise: [{u: 0.5, field: nil}, {u: 0.25, derivative: 1}, {u: 0, "
+                   "derivative: 3}, {u: 1, "
+                   "derivative: 2, from: f, to: f}]"),
+              same);
+    cr_expect(apart(low, same) < 1e-12, "off by %.2g", apart(low, same));
+    points_of(VASE(""), low);
+    points_of(VASE("    raise: [{u: 0, derivative: 2, field: f, scale: 0.5}, {u: 1, derivative: 2}]"), away);
+    points_of(VASE("    raise: [{u: 0, derivative: 2, differences: [nil, nil, f]}, {u: 1, derivative: 2}]"),
+              further);
+    double moved = 0, line = 0;
+    for (int k = 0; k < 3 * MANY; k++) {
+        moved = fmax(moved, fabs(away[k] - low[k]));
+        line = fmax(line, fabs(further[k] - low[k] - 2 * (away[k] - low[k])));
+    }
+    cr_expect(moved > 1e-3 && line < 1e-14, "moved by %g, off a line by %g", moved, line);
+    /* d_uu X at u = 0 is that of the lower order and half of f */
+    for (int c = 0; c < 3; c++) {
+        double f[3] = {0.5, 0, 1}, got = away[(9 + c) * MANY] - low[(9 + c) * MANY];
+        cr_expect(fabs(got - 0.5 * f[c]) < 1e-12, "%d: %g", c, got);
+    }
+}
+
+/* Cubic from the middle of p to that of q with these ends; a B-spline with two inner points is the cubic
+ * Bezier curve, whose ends have the derivatives 3 (p1 - p0) and 3 (p3 - p2). */
+Test(patches, a_spine_that_is_given_is_the_mean_of_the_surface)
+{
+    static double solved[18 * MANY], hermite[18 * MANY], bspline[18 * MANY], mapped[18 * MANY];
+    points_of(VASE(""), solved);
+    points_of(VASE("    spine: {hermite: [[0.3, 0, 1.2], [0, -0.6, 0.9]]}"), hermite);
+    points_of(VASE("    spine: {bspline: [[0.1, 1/30, 0.02 + 0.4], [0, 0.3, 1.2]]}"), bspline);
+    points_of(VASE("    spine: {bspline: {points: [[0.1, 1/30, 0.02 + 0.4], [0, 0.3, 1.2]]}}"), mapped);
+    cr_expect(apart(bspline, mapped) == 0);
+    cr_expect(apart(solved, hermite) > 0.01, "a spine of its own");
+    for (const char *const *text = (const char *const[]){"hermite: [[0.3, 0, 1.2], [0, -0.6, 0.9]]",
+                                                         "bspline: [[0.1, p1, p2], [0, 0.3, 1.2]]", NULL};
+         *text; text++) {
+        char file[2000];
+        double u[3] = {0, 0.5, 1}, A[27];
+        snprintf(file, sizeof file, "%sparameters: {p1: 1/30, p2: 0.42}\n", VASE("    spine: {"));
+        char *at = strstr(file, "spine: {") + 8, rest[1000];
+        snprintf(rest, sizeof rest, "%s", at);
+        snprintf(at, sizeof file - (size_t)(at - file), "%s}%s", *text, rest);
+        bed b = bed_with(file, NULL, 8, 8);
+        cr_assert_eq(ves_plan_spine(b.plan, 0, 3, u, A), VES_OK);
+        double p[3] = {A[0], A[3], A[6]}, q[3] = {A[2], A[5], A[8]};
+        cr_expect(fabs(q[1] - 0.1) < 1e-15 && fabs(q[2] - 1.5) < 1e-15 && fabs(p[0]) < 1e-15);
+        if (!strncmp(*text, "hermite", 7)) {
+            double middle = (p[2] + q[2]) / 2 + (1.2 - 0.9) / 8;
+            cr_expect(fabs(A[7] - middle) < 1e-15, "z(1/2) = %.17g, want %.17g", A[7], middle);
+            cr_expect(fabs(A[9 + 0] - 0.3) < 1e-14 && fabs(A[9 + 5] + 0.6) < 1e-14);
+        } else {
+            double middle = (p[2] + 3 * 0.42 + 3 * 1.2 + q[2]) / 8;
+            cr_expect(fabs(A[7] - middle) < 1e-15, "z(1/2) = %.17g, want %.17g", A[7], middle);
+        }
+        bed_clear(&b);
+    }
+}
+
+Test(patches, modes_of_a_remainder_are_those_of_the_patch_and_auto_is_the_first_that_is_not_solved)
+{
+    static double by_patch[18 * MANY], by_rest[18 * MANY], given[18 * MANY], other[18 * MANY];
+    points_of(VASE("    modes: 3"), by_patch);
+    points_of(VASE("    remainder: {modes: 3}"), by_rest);
+    points_of(VASE("    remainder: {modes: 3, omega: 0.8*4}"), given);
+    points_of(VASE("    remainder: {modes: 3, omega: 9}"), other);
+    cr_expect(apart(by_patch, by_rest) == 0);
+    cr_expect(apart(by_patch, given) < 1e-12, "off by %g", apart(by_patch, given));
+    cr_expect(apart(by_patch, other) > 1e-4);
+    for (int c = 0; c < 3; c++) /* the ends are met all the same */
+        cr_expect(fabs(by_patch[c * MANY] - other[c * MANY]) < 1e-14);
+}
+
+Test(patches, gradients_go_through_spines_raised_orders_and_omega)
+{
+    static const char *const text[] = {
+        VASE(
+            "    spine: {hermite: [[g, 0, 1.2], [0, -0.6, h]]}\nvariables: {g: [0, 0.3, 1], h: [0, 0.9, 2]}"),
+        VASE("    spine: {bspline: [[0.1, g, 0.3], [0, 0.3, h], [0, 0, 1.2]]}\nvariables: {g: [0, 0.3, 1], "
+             "h: [0, 0.9, 2]}"),
+        VASE("    raise: [{u: 0, derivative: 2, field: f, scale: g}, {u: 0.5, field: f, scale: h - "
+             "0.9}]\nvariables: {g: [0, 0.3, 1], h: [0, 0.9, 2]}"),
+        VASE("    remainder: {modes: 2, omega: 3*h + g}\nvariables: {g: [0, 0.3, 1], h: [0, 0.9, 2]}")};
+    for (size_t k = 0; k < sizeof text / sizeof *text; k++) {
+        bed b = bed_with(text[k], NULL, 12, 24);
+        expect_gradient(&b, (double[]){0.35, 0.8});
+        bed_clear(&b);
+    }
+}

@@ -120,7 +120,7 @@ Test(schema, explain_knows_every_word)
                                          {"mm", "1 mm = 0.001"},
                                          {"N/m", "1 N/m = 1 kg/s^2"},
                                          {"formula", "comparisons"},
-                                         {"spine", "not in this version yet"},
+                                         {"shell", "not in this version yet"},
                                          {"power", "whole number (1 .. 20)"},
                                          {"jacobian", "positive or any, default positive"}};
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) expect_explained(row[k][0], row[k][1]);

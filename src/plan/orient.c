@@ -15,11 +15,13 @@ static const ves_patch_def *def(const ves_plan *plan, int patch)
     return &plan->problem->patch[patch];
 }
 
-/* The curve that an end of a patch lies on, -1: no curve (a sheet). */
+/* The curve that an end of a patch lies on, -1: no curve (a sheet, or an end without a position). What raises
+ * the order says how far the surface departs, not where it lies. */
 int ves_end_curve(const ves_plan *plan, int patch, int end)
 {
     const ves_patch_def *p = def(plan, patch);
-    for (int k = 0; p->kind == VES_PATCH_PDE && k < p->conditions; k++)
+    int own = p->lower ? 2 * p->lower : p->conditions;
+    for (int k = 0; p->kind == VES_PATCH_PDE && k < own; k++)
         if (p->condition[k].u == end && p->condition[k].derivative == 0)
             return p->condition[k].share[0].curve;
     return -1;

@@ -230,6 +230,21 @@ static bool is_list(ves_reader *reader, const ves_node *list, const char *name, 
     return false;
 }
 
+/* Appends the conditions of a list. */
+static void read_list(const place *at, const ves_node *list, ves_patch_def *patch)
+{
+    ves_reader *reader = at->reader;
+    int before = patch->conditions, count = before + list->count;
+    if (count > VES_CONDITIONS_MAX) return; /* somebody has complained */
+    ves_condition *condition = ves_arena_take(reader->arena, (size_t)count, sizeof *condition);
+    if (!ves_reader_memory(reader, condition)) return;
+    for (int k = 0; k < before; k++) condition[k] = patch->condition[k];
+    for (int k = before; k < count; k++) read_condition(at, list->item[k - before], &condition[k]);
+    patch->condition = condition;
+    patch->conditions = count;
+    check_twice(reader, patch);
+}
+
 void ves_reader_conditions(ves_reader *reader, const ves_named *name, const ves_node *list,
                            ves_patch_def *patch)
 {
@@ -239,12 +254,28 @@ void ves_reader_conditions(ves_reader *reader, const ves_named *name, const ves_
         ves_reader_error(reader, VES_SINGULAR, name->word,
                          "patch \"%s\" of order %d needs %d conditions, found %d", name->text, wanted, wanted,
                          list->count);
-    if (list->count > VES_CONDITIONS_MAX) return;
-    ves_condition *condition = ves_arena_take(reader->arena, (size_t)list->count, sizeof *condition);
-    if (!ves_reader_memory(reader, condition)) return;
-    const place at = {reader, wanted, false};
-    for (int k = 0; k < list->count; k++) read_condition(&at, list->item[k], &condition[k]);
-    patch->condition = condition;
-    patch->conditions = list->count;
-    check_twice(reader, patch);
+    read_list(&(place){reader, wanted, false}, list, patch);
+}
+
+/* From order 2N to 2N' without a change of the surface, then away from it [Kubiesa 2004, 5.2]. */
+void ves_reader_raise(ves_reader *reader, const ves_field *field, ves_patch_def *patch)
+{
+    const ves_node *list = field->node;
+    if (!is_list(reader, list, "raise", "{u: 0, derivative: 2, field: CURVE}")) return;
+    int power = patch->power + list->count / 2;
+    if (patch->general)
+        ves_reader_error(
+            reader, VES_SYNTAX, field->word,
+            "\"raise\" goes with \"power\": the solutions of other operators are not among those of "
+            "a higher order");
+    else if (list->count % 2 || !list->count)
+        ves_reader_error(reader, VES_SINGULAR, list,
+                         "\"raise\" needs an even number of conditions, two for each power, found %d",
+                         list->count);
+    else if (power > VES_POWER_MAX)
+        ves_reader_error(reader, VES_RANGE, list, "\"raise\" leads to power %d: %d is the highest", power,
+                         VES_POWER_MAX);
+    if (patch->general || power > VES_POWER_MAX) return;
+    read_list(&(place){reader, patch->power ? 2 * power : 0, true}, list, patch);
+    if (patch->power) patch->lower = patch->power, patch->power = power;
 }

@@ -121,7 +121,7 @@ void ves_describe_kind(ves_writer *writer, const ves_key *key)
                 ves_write(writer, "%c", *c);
         return;
     }
-    if (kind >= VES_MAP && key->words) ves_write(writer, "%s, or a ", key->words);
+    if (key->words) ves_write(writer, "%s, or a ", key->words);
     ves_write(writer, "%s", kind < VES_MAP ? plain[kind] : compound[kind - VES_MAP]);
 }
 

@@ -269,10 +269,22 @@ static void compound(ves_writer *w, const ves_entry *e, const ves_measure *const
     }
 }
 
+/* A value, or the mapping of keys that it is short for. */
+static void brief(ves_writer *w, const ves_entry *e, const ves_measure *const *plugin)
+{
+    ves_write(w, "\"anyOf\":[{");
+    leaf(w, &e->key);
+    ves_write(w, "},{");
+    properties(w, e->table, plugin);
+    ves_write(w, "}]");
+}
+
 static void entry(ves_writer *w, const ves_entry *e, const ves_measure *const *plugin)
 {
     ves_write(w, "{");
-    if ((int)e->key.kind < VES_MAP)
+    if ((int)e->key.kind < VES_MAP && e->table)
+        brief(w, e, plugin);
+    else if ((int)e->key.kind < VES_MAP)
         leaf(w, &e->key);
     else
         compound(w, e, plugin);

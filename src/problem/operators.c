@@ -1,12 +1,12 @@
-/* Operators: the equation that a patch solves, and with what the rest of its modes goes. */
+/* Operators: the equation that a patch solves; and remainders: what the modes do that it is not solved for. */
 #include "problem/reader.h"
 
 #include <string.h>
 
-static const ves_entry *operator_table(void)
+static const ves_entry *table_of(const char *key)
 {
     const ves_entry *patch = ves_schema_find(ves_schema_root.table, "patches")->table->table;
-    return ves_schema_find(patch, "operator")->table;
+    return ves_schema_find(patch, key)->table;
 }
 
 /* [c0, ..., cN]: returns N, or 0 after an error. */
@@ -69,7 +69,7 @@ void ves_reader_operator(ves_reader *reader, const ves_node *node, ves_patch_def
 {
     static const char *const axis[3] = {"x", "y", "z"}, *const all[3] = {"coefficients"};
     ves_fields f;
-    if (!ves_fields_read(reader, node, operator_table(), "operator", &f) || excused(&f)) return;
+    if (!ves_fields_read(reader, node, table_of("operator"), "operator", &f) || excused(&f)) return;
     const ves_node *power = ves_fields_find(&f, "power"), *list = ves_fields_find(&f, "coefficients");
     int axes = 0;
     for (int k = 0; k < 3; k++) axes += ves_fields_find(&f, axis[k]) != NULL;
@@ -92,4 +92,27 @@ void ves_reader_operator(ves_reader *reader, const ves_node *node, ves_patch_def
                          "\"operator\" has coefficients for %d of x, y and z: give all three", axes);
     else
         read_lists(reader, &f, axis, 3, patch);
+}
+
+/* A number, or the word auto. */
+static void read_omega(ves_reader *reader, const ves_field *omega, ves_patch_def *patch)
+{
+    const ves_node *node = omega->node;
+    if (!node || (node->kind == VES_NODE_WORD && !strcmp(node->text, "auto"))) return;
+    if (patch->general)
+        ves_reader_error(
+            reader, VES_SYNTAX, omega->word,
+            "\"omega\" goes with \"power\"; with coefficients the remainder goes as the first mode "
+            "that is not solved (auto)");
+    else
+        patch->omega = ves_reader_place(reader, node, omega->key);
+}
+
+void ves_reader_remainder(ves_reader *reader, const ves_node *node, ves_patch_def *patch)
+{
+    ves_fields f;
+    if (!ves_fields_read(reader, node, table_of("remainder"), "remainder", &f)) return;
+    const ves_field *modes = ves_fields_field(&f, "modes");
+    if (modes->node) patch->modes = (int)ves_reader_count(reader, modes->node, modes->key);
+    read_omega(reader, ves_fields_field(&f, "omega"), patch);
 }

@@ -1,6 +1,7 @@
 /* patches, places, shape. */
 #include <string.h>
 
+#include "base/text.h"
 #include "base/vector.h"
 #include "problem/reader.h"
 
@@ -16,11 +17,24 @@ static int number_at(ves_reader *reader, const ves_fields *fields, const char *n
     return arg.count ? arg.first : -1;
 }
 
+/* What a patch may have besides operator and conditions. */
+static void read_rest(ves_reader *reader, const ves_fields *f, ves_patch_def *patch)
+{
+    const ves_field *modes = ves_fields_field(f, "modes"), *remainder = ves_fields_field(f, "remainder"),
+                    *raise = ves_fields_field(f, "raise"), *spine = ves_fields_field(f, "spine");
+    if (modes->node && remainder->node)
+        ves_reader_error(reader, VES_SYNTAX, modes->word,
+                         "\"modes\" stands here and \"remainder\" has it too: give it once");
+    if (modes->node) patch->modes = (int)ves_reader_count(reader, modes->node, modes->key);
+    if (remainder->node) ves_reader_remainder(reader, remainder->node, patch);
+    if (raise->node) ves_reader_raise(reader, raise, patch);
+    if (spine->node) ves_reader_spine(reader, spine, patch);
+}
+
 static void read_pde(ves_reader *reader, const ves_named *name, const ves_fields *f, ves_patch_def *patch)
 {
     static const char *const only_surface[] = {"periodic", "domain"};
-    const ves_node *pde = ves_fields_find(f, "operator"), *conditions = ves_fields_find(f, "conditions"),
-                   *modes = ves_fields_find(f, "modes");
+    const ves_node *pde = ves_fields_find(f, "operator"), *conditions = ves_fields_find(f, "conditions");
     for (int k = 0; k < 2; k++)
         if (ves_fields_find(f, only_surface[k]))
             ves_reader_error(reader, VES_SYNTAX, ves_fields_field(f, only_surface[k])->word,
@@ -34,7 +48,7 @@ static void read_pde(ves_reader *reader, const ves_named *name, const ves_fields
         ves_reader_error(reader, VES_NAME, name->word, "patch \"%s\" lacks \"conditions\"", name->text);
     else
         ves_reader_conditions(reader, name, conditions, patch);
-    if (modes) patch->modes = (int)ves_reader_count(reader, modes, ves_fields_field(f, "modes")->key);
+    read_rest(reader, f, patch);
     patch->kind = VES_PATCH_PDE;
     patch->periodic = true;
 }
@@ -100,7 +114,7 @@ static void read_surface(ves_reader *reader, const ves_node *node, const ves_fie
     ves_fields f;
     for (int k = 0; k < outer->count; k++) {
         const char *name = outer->field[k].key->name;
-        bool pde = !strcmp(name, "operator") || !strcmp(name, "conditions") || !strcmp(name, "modes");
+        bool pde = ves_words_find("operator|conditions|modes|remainder|raise|spine", name) >= 0;
         if (pde && outer->field[k].node)
             ves_reader_error(reader, VES_SYNTAX, outer->field[k].word, "\"%s\" does not go with \"surface\"",
                              name);

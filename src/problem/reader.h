@@ -196,10 +196,14 @@ void ves_vary_moves(ves_reader *reader, const ves_node *vary, const ves_named *c
 /* sections */
 void ves_reader_curves(ves_reader *reader, const ves_fields *root);
 void ves_reader_patches_section(ves_reader *reader, const ves_fields *root);
-/* operators.c, conditions.c: parts of a PDE patch. The operator, whose order the conditions follow, first. */
+/* operators.c, conditions.c, spine.c: parts of a PDE patch. The operator, whose order the conditions follow,
+ * first; what raises the order after them; the spine, which needs to know the ends, last. */
 void ves_reader_operator(ves_reader *reader, const ves_node *node, ves_patch_def *patch);
+void ves_reader_remainder(ves_reader *reader, const ves_node *node, ves_patch_def *patch);
 void ves_reader_conditions(ves_reader *reader, const ves_named *name, const ves_node *list,
                            ves_patch_def *patch);
+void ves_reader_raise(ves_reader *reader, const ves_field *field, ves_patch_def *patch);
+void ves_reader_spine(ves_reader *reader, const ves_field *field, ves_patch_def *patch);
 void ves_reader_places(ves_reader *reader, const ves_fields *root);
 void ves_reader_settings(ves_reader *reader, const ves_fields *root); /* shape, validity, quadrature */
 void ves_reader_shape(ves_reader *reader, const ves_node *node);

@@ -77,6 +77,24 @@ static const ves_entry condition[] = {
     {{"condition", KIND(VES_MAP), .about = "the surface or a derivative of it along one curve u = constant"}, "{u: 0, derivative: 1, from: p1, to: d1, scale: 2}", condition_keys},
     END};
 
+static const ves_entry raised[] = {
+    {{"condition", KIND(VES_MAP), .about = "how far the surface or a derivative of it departs along one curve u = constant"}, "{u: 0, derivative: 2, field: bend, scale: 0.5}", condition_keys},
+    END};
+
+static const ves_entry remainder_keys[] = {
+    {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "M, how many modes are solved one by one; 0: chosen: with conditions at the ends only, all that matter at the start, at least 40; with conditions inside, as many of these as come out less than 1000 times as large as their data"}, "modes: 6", NULL},
+    {{"omega", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = 1e9, .fallback = NAN, .words = "auto", .about = "lam of all modes beyond; auto: a (M + 1), that of the first mode which is not solved; a number only with power"}, "omega: 4*a", NULL},
+    END};
+
+static const ves_entry spine_points[] = {
+    {{"points", VES_POINTS, .required = true, .unit = "m", .about = "the inner control points"}, "points: [[0, 0, 1]]", NULL},
+    END};
+
+static const ves_entry spine_keys[] = {
+    {{"hermite", VES_POINTS, .unit = "m", .about = "two vectors: the derivatives of the spine, by u, at u = 0 and u = 1; the spine is a cubic"}, "hermite: [[0, 0, 1], [1, 0, 0]]", NULL},
+    {{"bspline", VES_POINTS, .unit = "m", .about = "1 to 100 inner control points of a cubic B-spline from end to end, evenly knotted"}, "bspline: [[0, 0, 1], [0, 1, 2]]", spine_points},
+    END};
+
 static const ves_entry surface_keys[] = {
     {{"formula", VES_FORMULAS, .about = "[x, y, z], formulas of u and v"}, "formula: [\"u*cos(v)\", \"u*sin(v)\", \"0\"]", NULL},
     {{"points", KIND(VES_GRID), .about = "rows along u of points along v, joined by cubic splines"}, "points: [[[0, 0, 0], [0, 1, 0]], [[1, 0, 0], [1, 1, 0]]]", NULL},
@@ -90,12 +108,13 @@ static const ves_entry domain_keys[] = {
 static const ves_entry patch_keys[] = {
     {{"operator", KIND(VES_MAP), .about = "the partial differential equation: (d_uu + a^2 d_vv)^power X = 0, or one with coefficients"}, "operator: {power: 2, a: 1}", operator_keys},
     {{"conditions", KIND(VES_LIST), .about = "what the surface meets, at its ends and inside: as many as the order, 2 * power, none of them twice"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
-    {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved exactly; 0: all that matter at the start, at least 40; the rest goes into the remainder"}, "modes: 8", NULL},
+    {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved one by one; 0: chosen, see remainder, which may have it instead"}, "modes: 8", NULL},
+    {{"remainder", KIND(VES_MAP), .about = "what becomes of the modes of the data beyond those that are solved: all of them cross the patch as one mode would, with lam = omega, so that every condition is met exactly; the equation is not, there. Conditions inside a patch amplify fine detail beyond all bounds, and this is what tames it"}, "remainder: {modes: 6, omega: auto}", remainder_keys},
+    {{"raise", KIND(VES_LIST), .about = "conditions that raise the order, two for each power, and say how far the surface departs there from that of the lower order: by field, from and to, or differences at a derivative that is still free, or by nothing at all, which means 0; while all are 0 the surface is that of the lower order, with as many modes solved (only with power)"}, "raise: [{u: 0, derivative: 2, field: bend}, {u: 1, derivative: 2}]", raised},
+    {{"spine", KIND(VES_MAP), .about = "the centre line, instead of the one that the equation gives: what the mean over v of the surface is at each u; it runs from the middle of the end curve at u = 0 to that at u = 1, wherever they go"}, "spine: {hermite: [[0, 0, 1], [1, 0, 0]]}", spine_keys},
     {{"surface", KIND(VES_MAP), .about = "instead of operator and conditions: the surface itself; edges of it that lie on each other are joined, but not with those of other patches"}, "surface: {formula: [u, v, \"u*v\"]}", surface_keys},
     {{"periodic", VES_FLAG, .fallback = 1, .about = "the surface closes in v (only with surface)"}, "periodic: false", NULL},
     {{"domain", KIND(VES_MAP), .about = "what u and v run over in the formulas of the surface, and of integral, min and max over it; places, vesica sample and files count u 0 to 1 and v 0 to 2*pi whatever stands here (only with surface: formula)"}, "domain: {u: [0, 1], v: [0, 2*pi]}", domain_keys},
-    LATER("spine", "a centre line that is given"),
-    LATER("remainder", "a remainder with its own decay"),
     LATER("sections", "patches through sections of a family"),
     END};
 

@@ -42,6 +42,20 @@ static void check_condition(const ves_problem *p, const ves_condition *c, int or
                 "a share");
 }
 
+static void check_spine(const ves_problem *p, const ves_patch_def *patch)
+{
+    if (patch->spine == VES_SPINE_NONE) return;
+    int own = 2 * (patch->lower ? patch->lower : patch->power), ends = 0;
+    require(patch->spine_vectors >= 1 && patch->spine_first >= p->slots &&
+                patch->spine_first + 3 * patch->spine_vectors <= p->block,
+            "a spine outside the block");
+    require(patch->spine != VES_SPINE_BY_HERMITE || patch->spine_vectors == 2, "a Hermite spine");
+    for (int i = 0; i < own; i++)
+        ends +=
+            patch->condition[i].derivative == 0 && (patch->condition[i].u == 0 || patch->condition[i].u == 1);
+    require(ends == 2, "a spine without ends");
+}
+
 static void check_pde(const ves_problem *p, const ves_patch_def *patch)
 {
     int numbers = patch->general ? patch->power + 1 : 1;
@@ -53,6 +67,12 @@ static void check_pde(const ves_problem *p, const ves_patch_def *patch)
                 "an operator outside the block");
     require(patch->conditions == 2 * patch->power, "conditions");
     for (int i = 0; i < patch->conditions; i++) check_condition(p, &patch->condition[i], patch->conditions);
+    require(patch->lower >= 0 && patch->lower < patch->power && !(patch->lower && patch->general),
+            "a lower order");
+    require(patch->omega == -1 || (!patch->general && patch->omega >= p->slots && patch->omega < p->block),
+            "an omega outside the block");
+    require(patch->modes >= 0, "modes");
+    check_spine(p, patch);
 }
 
 /* What the plan takes for granted. */
@@ -185,6 +205,11 @@ static const char *const dictionary[] = {
     "power: ",
     "coefficients: [",
     "differences: [",
+    "remainder: {",
+    "omega: ",
+    "raise: [",
+    "spine: {",
+    "hermite: ",
     "u: 0.5, ",
     "a: ",
     "u: ",
