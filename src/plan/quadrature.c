@@ -73,18 +73,25 @@ static ves_status refine(const ves_plan *plan, const double *x, int d, int grid[
 }
 
 /* The plan of the first grid, which sees the modes. Round noses and thin edges may look folded on it: then it is
- * made finer, around and across in turn, until they do not, or as fine as may be chosen. */
+ * made finer, around and across in turn, until they do not. What is folded on the finest that may be chosen is
+ * so, and no reason for many nodes. */
 static ves_status begin(const ves_problem *problem, int grid[2], ves_plan **plan)
 {
     const int most[2] = {U_MOST, V_MOST};
     VES_TRY(ves_plan_make(problem, grid, plan, NULL));
     grid[1] = resolving(*plan);
-    for (int turn = 1;; turn = !turn) {
+    int trial[2] = {grid[0], grid[1]};
+    for (int turn = 1; trial[0] <= most[0] && trial[1] <= most[1]; turn = !turn) {
         ves_plan_destroy(*plan);
-        VES_TRY(ves_plan_make(problem, grid, plan, NULL));
-        if ((*plan)->measured != VES_FOLDED || 2 * grid[turn] > most[turn]) return VES_OK;
-        grid[turn] *= 2;
+        VES_TRY(ves_plan_make(problem, trial, plan, NULL));
+        if ((*plan)->measured == VES_FOLDED) {
+            trial[turn] *= 2;
+            continue;
+        }
+        memcpy(grid, trial, sizeof trial);
+        return VES_OK;
     }
+    return VES_OK;
 }
 
 ves_status ves_plan_choose(const ves_problem *problem, const double *at, int quadrature[2], double *change)
