@@ -84,6 +84,7 @@ struct ves_plan {
     ves_curves *curves;
     ves_bound bound;
     ves_patch **patch;
+    bool trial;    /* see ves_plan_try */
     bool branched; /* no oriented mesh: more than two patches end on some curve, or a sheet has one side */
     plan_sheet *sheet; /* [patches] */
     double *side;      /* [patches] +1: Xu x Xv points outward */
@@ -127,9 +128,11 @@ struct ves_plan {
     double *shape[2], *planes; /* pose.c: points of two shapes that are compared */
 };
 
-/* plan.c: on a grid that is given, in range or not. */
+/* plan.c: on a grid that is given, in range or not. try: to be measured with and thrown away: says nothing, and
+ * does not ask whether the conditions are good. */
 ves_status ves_plan_make(const ves_problem *problem, const int quadrature[2], ves_plan **plan,
                          ves_diag *diag);
+ves_status ves_plan_try(const ves_problem *problem, const int quadrature[2], ves_plan **plan);
 
 /* level.c. face: its sites take the sides of their patches. */
 ves_status ves_plan_level_build(ves_plan *plan, int index);

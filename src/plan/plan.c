@@ -178,7 +178,7 @@ static ves_status patch_make(ves_plan *plan, int k, ves_diag *diag)
     VES_TRY(pde_define(d, arena, pde));
     VES_TRY(ves_patch_pde(pde, &plan->bound, arena, &plan->patch[k]));
     VES_TRY(ves_plan_elliptic(plan, k, diag));
-    return ves_plan_conditions(plan, k, diag);
+    return plan->trial ? VES_OK : ves_plan_conditions(plan, k, diag);
 }
 
 /* Does the value change from one candidate to another? */
@@ -249,13 +249,14 @@ static ves_status build(ves_plan *plan, const int quadrature[2], ves_diag *diag)
     return VES_OK;
 }
 
-ves_status ves_plan_make(const ves_problem *problem, const int quadrature[2], ves_plan **out, ves_diag *diag)
+static ves_status make(const ves_problem *problem, const int quadrature[2], bool trial, ves_plan **out,
+                       ves_diag *diag)
 {
     int before = ves_diag_errors(diag);
     ves_plan *plan = ves_memory_take(sizeof *plan);
     ves_status status = plan ? VES_OK : VES_MEMORY;
     *out = NULL;
-    if (plan) plan->problem = problem, plan->change = NAN;
+    if (plan) plan->problem = problem, plan->change = NAN, plan->trial = trial;
     if (status == VES_OK) status = build(plan, quadrature, diag);
     if (status == VES_OK) {
         *out = plan;
@@ -264,6 +265,16 @@ ves_status ves_plan_make(const ves_problem *problem, const int quadrature[2], ve
     if (ves_diag_errors(diag) == before) ves_diag_fail(diag, status);
     ves_plan_destroy(plan);
     return status;
+}
+
+ves_status ves_plan_make(const ves_problem *problem, const int quadrature[2], ves_plan **plan, ves_diag *diag)
+{
+    return make(problem, quadrature, false, plan, diag);
+}
+
+ves_status ves_plan_try(const ves_problem *problem, const int quadrature[2], ves_plan **plan)
+{
+    return make(problem, quadrature, true, plan, NULL);
 }
 
 static bool in_range(int count, int most)

@@ -17,7 +17,7 @@ static int rounded(int n)
 static ves_status measures_on(const ves_problem *problem, const double *x, const int grid[2], double *value)
 {
     ves_plan *plan;
-    VES_TRY(ves_plan_make(problem, grid, &plan, NULL));
+    VES_TRY(ves_plan_try(problem, grid, &plan));
     ves_status status = ves_plan_measure_all(plan, x, 0);
     for (int m = 0; m < problem->measures; m++) value[m] = plan->value[m];
     ves_plan_destroy(plan);
@@ -78,12 +78,12 @@ static ves_status refine(const ves_plan *plan, const double *x, int d, int grid[
 static ves_status begin(const ves_problem *problem, int grid[2], ves_plan **plan)
 {
     const int most[2] = {U_MOST, V_MOST};
-    VES_TRY(ves_plan_make(problem, grid, plan, NULL));
+    VES_TRY(ves_plan_try(problem, grid, plan));
     grid[1] = resolving(*plan);
     int trial[2] = {grid[0], grid[1]};
     for (int turn = 1; trial[0] <= most[0] && trial[1] <= most[1]; turn = !turn) {
         ves_plan_destroy(*plan);
-        VES_TRY(ves_plan_make(problem, trial, plan, NULL));
+        VES_TRY(ves_plan_try(problem, trial, plan));
         if ((*plan)->measured == VES_FOLDED) {
             trial[turn] *= 2;
             continue;

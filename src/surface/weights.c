@@ -75,26 +75,23 @@ ves_status ves_weights_bind(const ves_layout *layout, const ves_operator *op, in
 
 /* --- what the conditions make of a mode --- */
 
-enum { LOOKS = 256, CHUNK = 8 };
+enum { LOOKS = 256 };
 
 static ves_status lebesgue(const ves_layout *layout, const ves_operator *op, double n, ves_arena *arena,
                            double *found)
 {
     int count = conditions(layout);
-    double *weight = ves_arena_doubles(arena, (size_t)(ORDERS * count * CHUNK));
-    double *room = ves_arena_doubles(arena, (size_t)ves_weights_room(layout, CHUNK));
+    double *weight = ves_arena_doubles(arena, (size_t)(ORDERS * count * LOOKS));
+    double *room = ves_arena_doubles(arena, (size_t)ves_weights_room(layout, LOOKS)), u[LOOKS];
     *found = 0;
     if (!weight || !room) return VES_MEMORY;
-    for (int first = 0; first < LOOKS; first += CHUNK) {
-        double u[CHUNK];
-        for (int i = 0; i < CHUNK; i++) u[i] = (double)(first + i) / (LOOKS - 1);
-        VES_TRY(ves_weights_mode(layout, op, n, CHUNK, u, &(ves_table){.weight = weight, .room = room}));
-        for (int i = 0; i < CHUNK; i++) {
-            double sum = 0;
-            for (int j = 0; j < count; j++)
-                if (layout->knot[j].derivative == 0) sum += fabs(weight[j * CHUNK + i]);
-            *found = fmax(*found, sum);
-        }
+    for (int i = 0; i < LOOKS; i++) u[i] = (double)i / (LOOKS - 1);
+    VES_TRY(ves_weights_mode(layout, op, n, LOOKS, u, &(ves_table){.weight = weight, .room = room}));
+    for (int i = 0; i < LOOKS; i++) {
+        double sum = 0;
+        for (int j = 0; j < count; j++)
+            if (layout->knot[j].derivative == 0) sum += fabs(weight[j * LOOKS + i]);
+        *found = fmax(*found, sum);
     }
     return VES_OK;
 }
