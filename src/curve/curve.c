@@ -124,6 +124,13 @@ static ves_status curve_create(const build *b, int index)
     return VES_OK;
 }
 
+/* Sections of one family are written in one place: what is wrong with all of them is said once. */
+static bool is_sibling(const ves_curve_def *def, int index)
+{
+    const ves_mark *own = &def[index].mark, *before = index ? &def[index - 1].mark : own;
+    return index && own->line > 0 && own->line == before->line && own->column == before->column;
+}
+
 /* Lists the varying steps behind `last` (of one curve), in order of evaluation. */
 static void curve_list(ves_curves *curves, const ves_curve_def *def, step *last)
 {
@@ -167,10 +174,13 @@ ves_status ves_curves_create(const ves_curve_set *set, ves_arena *arena, ves_cur
     if (!made || !made->curve) return no_memory(&b, (ves_mark){0});
     made->count = set->count;
     ves_status first = VES_OK;
-    for (int i = 0; i < set->count && first != VES_MEMORY; i++) {
+    for (int i = 0, messages = 0; i < set->count && first != VES_MEMORY; i++) {
+        if (!is_sibling(set->def, i)) messages = ves_diag_count(diag);
+        b.diag = ves_diag_count(diag) > messages ? NULL : diag;
         ves_status status = curve_create(&b, i);
         if (status == VES_MEMORY || first == VES_OK) first = status;
     }
+    b.diag = diag;
     if (first == VES_OK) first = adjoints_place(&b);
     if (first == VES_OK) *curves = made;
     return first;

@@ -203,6 +203,7 @@ bool ves_plan_elliptic_tell(const ves_plan *plan, const char *what, ves_diag *di
 ves_status ves_plan_orient(ves_plan *plan, ves_diag *diag);
 bool ves_end_is_pole(const ves_plan *plan, int patch, int end);
 int ves_end_curve(const ves_plan *plan, int patch, int end);
+int ves_ends_on(const ves_plan *plan, int curve); /* how many ends lie on it */
 bool ves_end_is_capped(const ves_plan *plan, int patch, int end);
 
 /* edge.c, at the start design: warns of end curves that cross themselves; the end that runs nearest to a free

@@ -42,8 +42,7 @@ bool ves_end_is_capped(const ves_plan *plan, int patch, int end)
     return false;
 }
 
-/* How many ends lie on a curve; the last one met. */
-static int ends_on(const ves_plan *plan, int curve)
+int ves_ends_on(const ves_plan *plan, int curve)
 {
     int count = 0;
     for (int p = 0; p < plan->problem->patches; p++)
@@ -57,7 +56,7 @@ static int ends_on(const ves_plan *plan, int curve)
 static bool spread(ves_plan *plan, int a, int end)
 {
     int curve = ves_end_curve(plan, a, end);
-    if (curve < 0 || ves_end_is_pole(plan, a, end) || ends_on(plan, curve) > 2) return false;
+    if (curve < 0 || ves_end_is_pole(plan, a, end) || ves_ends_on(plan, curve) > 2) return false;
     for (int b = 0; b < plan->problem->patches; b++)
         for (int e = 0; e < 2; e++) {
             if (plan->side[b] != 0 || ves_end_curve(plan, b, e) != curve) continue;
@@ -97,7 +96,7 @@ static beyond beyond_end(const ves_plan *plan, int patch, int end)
     int curve = ves_end_curve(plan, patch, end);
     if (ves_end_is_pole(plan, patch, end)) return SHUT;
     if (plan->sheet[patch].ends.joined) return JOINED;
-    int ends = curve < 0 ? 1 : ends_on(plan, curve);
+    int ends = curve < 0 ? 1 : ves_ends_on(plan, curve);
     return ends == 1 ? FREE : ends == 2 ? JOINED : BRANCHED;
 }
 
@@ -174,7 +173,7 @@ static ves_status closed_check(const ves_plan *plan, ves_diag *diag)
 static void branches_find(ves_plan *plan, ves_diag *diag)
 {
     for (int c = 0; c < plan->problem->curves; c++) {
-        if (ends_on(plan, c) <= 2 || ves_curves_modes(plan->curves, c) == 0) continue;
+        if (ves_ends_on(plan, c) <= 2 || ves_curves_modes(plan->curves, c) == 0) continue;
         plan->branched = true;
         ves_diag_add(diag, VES_WARNING, VES_OK, plan->problem->curve[c].mark,
                      "more than two patches end on curve \"%s\": the normals of each keep their own side "

@@ -1,5 +1,6 @@
 /* Sheets: surfaces by formula or points. A file says nothing about their ends, so they are looked at: which
- * end is a point, and where the sheet meets itself. */
+ * end is a point, and where the sheet meets itself. So are the ends of a PDE patch that lie on two curves, each
+ * of it alone: these may be one line (a torus or a Klein bottle through sections). */
 #include "base/random.h"
 #include "base/vector.h"
 #include "plan/inside.h"
@@ -16,6 +17,7 @@ static const double SAME = 1e-9;
 typedef struct look {
     const ves_plan *plan;
     const ves_patch *patch;
+    int curve[2]; /* of a PDE patch, on which its ends lie; else -1 */
     bool periodic;
     double *room, *out, near; /* near: what counts as no distance */
 } look;
@@ -27,11 +29,29 @@ static double wrapped(const look *l, double v)
     return t < 0 ? t + VES_TWO_PI : t;
 }
 
+/* X and Xv on the ends of a PDE patch, u = 0 and 1: those of its curves. */
+static void end_points(const look *l, int count, const double *u, const double *v)
+{
+    const ves_curves *curves = l->plan->curves;
+    for (int k = 0; k < count; k++) {
+        double point[6];
+        int curve = l->curve[u[k] > 0.5];
+        ves_curve_point(ves_curves_coef(curves, curve), ves_curves_modes(curves, curve), v[k], 1, point);
+        for (int c = 0; c < 3; c++) {
+            l->out[c * count + k] = point[c];
+            l->out[(VES_FIELD_V * 3 + c) * count + k] = point[3 + c];
+        }
+    }
+}
+
 /* Fields of `count` points, as ves_patch_point lays them out. */
 static const double *points(const look *l, int count, const double *u, double *v)
 {
     for (int k = 0; k < count; k++) v[k] = wrapped(l, v[k]);
-    ves_patch_point(l->patch, &l->plan->bound, count, u, v, l->out, l->room);
+    if (l->curve[0] >= 0)
+        end_points(l, count, u, v);
+    else
+        ves_patch_point(l->patch, &l->plan->bound, count, u, v, l->out, l->room);
     return l->out;
 }
 
@@ -98,12 +118,16 @@ static bool end_is_point(const look *l, int end)
     return apart(l, u, v) <= l->near;
 }
 
-/* Of the box round the four edges and a diagonal. */
+/* Of the box round the four edges and a diagonal; of a PDE patch round its ends. */
 static double size_of(const look *l)
 {
     enum { COUNT = 5 * LOOKS };
     double u[COUNT], v[COUNT], size = 0;
     for (int k = 0; k < COUNT; k++) {
+        if (l->curve[0] >= 0) {
+            u[k] = k % 2, v[k] = VES_TWO_PI * (k + 0.37) / COUNT;
+            continue;
+        }
         double t = place(k % LOOKS), edge = k / LOOKS;
         u[k] = edge == 0 ? 0 : edge == 1 ? 1 : t;
         v[k] = VES_TWO_PI * (edge == 2 ? 0 : edge == 3 ? 0.5 : t);
@@ -187,17 +211,31 @@ static void ends_find(const look *l, plan_sheet *found)
     if (l->periodic) turn_find(l, &found->ends);
 }
 
+/* The curves of a PDE patch whose ends may be one line: two, on which nothing else ends. */
+static bool end_curves(const ves_plan *plan, int patch, int curve[2])
+{
+    for (int end = 0; end < 2; end++) curve[end] = ves_end_curve(plan, patch, end);
+    for (int end = 0; end < 2; end++)
+        if (curve[end] < 0 || ves_end_is_pole(plan, patch, end) || ves_ends_on(plan, curve[end]) > 1)
+            return false;
+    return true;
+}
+
 ves_status ves_sheet_look(const ves_plan *plan, int patch, plan_sheet *found)
 {
     ves_arena arena = {0};
-    look l = {.plan = plan, .patch = plan->patch[patch], .periodic = ves_patch_periodic(plan->patch[patch])};
+    look l = {.plan = plan,
+              .patch = plan->patch[patch],
+              .curve = {-1, -1},
+              .periodic = ves_patch_periodic(plan->patch[patch])};
     l.room = ves_arena_doubles(&arena, (size_t)ves_patch_point_room(l.patch));
     l.out = ves_arena_doubles(&arena, (size_t)(3 * VES_FIELDS * AROUND));
     bool good = l.room && l.out;
+    bool pde = plan->problem->patch[patch].kind == VES_PATCH_PDE;
     *found = (plan_sheet){0};
-    if (good) {
+    if (good && (!pde || end_curves(plan, patch, l.curve))) {
         l.near = SAME * size_of(&l);
-        sides_find(&l, found);
+        if (!pde) sides_find(&l, found);
         ends_find(&l, found);
     }
     ves_arena_destroy(&arena);
@@ -236,7 +274,8 @@ static ves_status look_everywhere(ves_plan *plan, int patch)
     const ves_problem *p = plan->problem;
     plan_sheet *sheet = &plan->sheet[patch];
     VES_TRY(ves_sheet_look(plan, patch, sheet));
-    if (!ves_patch_varies(plan->patch[patch])) return VES_OK;
+    bool settled = p->patch[patch].kind == VES_PATCH_PDE && !sheet->ends.joined;
+    if (settled || !ves_patch_varies(plan->patch[patch])) return VES_OK;
     ves_arena arena = {0};
     double *x = ves_arena_take(&arena, (size_t)p->variables, sizeof *x);
     ves_status status = x ? VES_OK : VES_MEMORY;
@@ -258,7 +297,6 @@ ves_status ves_plan_sheets(ves_plan *plan, ves_diag *diag)
 {
     for (int k = 0; k < plan->problem->patches; k++) {
         const ves_patch_def *def = &plan->problem->patch[k];
-        if (def->kind == VES_PATCH_PDE) continue;
         VES_TRY(look_everywhere(plan, k));
         if (def->periodic && plan->sheet[k].gaping)
             return ves_diag_add(

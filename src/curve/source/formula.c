@@ -1,16 +1,17 @@
 /* A curve by three formulas of v. Sampled at v = 2 pi j / J and analysed [Ugail 2011, eqs 4.24-4.27]; J is
  * chosen once, from the spectrum at the start design and, for a curve that varies, at designs around it,
  * so that a harmonic whose factor happens to be zero at the start is not lost. A curve that varies is
- * sampled again for each x.
+ * sampled again for each x. A section of a family of curves has one more argument, the number AT.
  * test  cos and sin to rounding; smooth curves against direct evaluation; gradient by differences */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/vector.h"
 #include "curve/modes.h"
 
-enum { OF };
-enum { FIRST = 16, PROBES = 4, CHECKS = 5 };
+enum { OF, AT }; /* AT: of a section alone; files say it through their patches */
+enum { FIRST = 16, PROBES = 4, CHECKS = 5, WHERE = 100 };
 
 static const double golden =
     0.61803398874989484820;              /* irrational: checks and probes miss every regular pattern */
@@ -39,15 +40,30 @@ typedef struct work {
     double *coef;
     double *slot; /* [slots], those that the formulas read */
     int slots;
+    double at; /* of a section */
 } work;
+
+static bool is_section(const ves_curve_input *input)
+{
+    return input->args->count > AT;
+}
+
+static double section_at(const ves_curve_input *input)
+{
+    return is_section(input) ? ves_input_number(input, AT) : 0;
+}
+
+static double value(const work *w, int c, double v)
+{
+    return ves_formula_eval(w->formula[c], w->slot, (const double[]){v, w->at}, w->room);
+}
 
 static bool sample(const work *w, int count)
 {
     bool finite = true;
     for (int c = 0; c < 3; c++)
         for (int j = 0; j < count; j++) {
-            double v = VES_TWO_PI * j / count;
-            w->sample[c * count + j] = ves_formula_eval(w->formula[c], w->slot, &v, w->room);
+            w->sample[c * count + j] = value(w, c, VES_TWO_PI * j / count);
             if (!isfinite(w->sample[c * count + j])) finite = false;
         }
     return finite;
@@ -61,8 +77,7 @@ static bool agrees(const work *w, int modes, double size)
         double v = VES_TWO_PI * fmod(k * golden, 1), out[3];
         ves_curve_point(w->coef, modes, v, 0, out);
         for (int c = 0; c < 3; c++)
-            if (!(fabs(ves_formula_eval(w->formula[c], w->slot, &v, w->room) - out[c]) <= 1e-11 * size))
-                return false;
+            if (!(fabs(value(w, c, v) - out[c]) <= 1e-11 * size)) return false;
     }
     return true;
 }
@@ -83,14 +98,21 @@ static int spectrum(const work *w, double *size)
     }
 }
 
-/* Slots at probe `number`: 0 the start, further ones around it. False: the formulas read nothing that varies. */
-static bool probe(const work *w, const ves_curve_input *input, int number)
+static double shifted(double x, int slot, int number)
 {
-    bool any = false;
+    double shift = fmod((slot + 1 + number) * golden, 1) - 0.5;
+    return x + 0.5 * number * shift * (1 + fabs(x));
+}
+
+/* Slots at probe `number`: 0 the start, further ones around it. False: the formulas read nothing that varies. */
+static bool probe(work *w, const ves_curve_input *input, int number)
+{
+    bool any = is_section(input) && ves_input_varies(input, AT);
+    w->at = any ? shifted(section_at(input), w->slots, number) : section_at(input);
     for (int slot = 0; slot < w->slots; slot++) {
         if (!ves_input_reads(input, OF, slot)) continue;
-        double x = input->number[slot], shift = fmod((slot + 1 + number) * golden, 1) - 0.5;
-        w->slot[slot] = input->varying[slot] ? x + 0.5 * number * shift * (1 + fabs(x)) : x;
+        double x = input->number[slot];
+        w->slot[slot] = input->varying[slot] ? shifted(x, slot, number) : x;
         any = any || input->varying[slot];
     }
     return any;
@@ -98,7 +120,7 @@ static bool probe(const work *w, const ves_curve_input *input, int number)
 
 /* Modes for every probe. A trigonometric polynomial shows the same number at each: then that is exact. Else
  * twice the largest leaves room for designs far from the start. */
-static int modes_for_all(const work *w, const ves_curve_input *input, int start)
+static int modes_for_all(work *w, const ves_curve_input *input, int start)
 {
     int most = start, least = start;
     double size;
@@ -110,16 +132,23 @@ static int modes_for_all(const work *w, const ves_curve_input *input, int start)
     return most == least ? most : 2 * most;
 }
 
+/* " at w = 0.5", of a section. */
+static void say_where(const ves_curve_input *input, const work *w, char text[WHERE])
+{
+    text[0] = 0;
+    if (is_section(input)) snprintf(text, WHERE, " at %s = %.6g", input->args->key[AT].name, w->at);
+}
+
 static ves_status check(const ves_curve_input *input, const work *w, double size, ves_diag *diag)
 {
+    char where[WHERE];
+    say_where(input, w, where);
     for (int c = 0; c < 3; c++) {
-        double begin = 0, end = VES_TWO_PI;
-        double gap = ves_formula_eval(w->formula[c], w->slot, &end, w->room) -
-                     ves_formula_eval(w->formula[c], w->slot, &begin, w->room);
+        double gap = value(w, c, VES_TWO_PI) - value(w, c, 0);
         if (!(fabs(gap) <= close_enough * size))
             return ves_diag_add(diag, VES_ERROR, VES_RANGE, ves_input_mark(input, OF),
-                                "the curve does not close: from v = 0 to v = 2*pi %c changes by %g", "xyz"[c],
-                                gap);
+                                "the curve%s does not close: from v = 0 to v = 2*pi %c changes by %g", where,
+                                "xyz"[c], gap);
     }
     return VES_OK;
 }
@@ -148,14 +177,16 @@ static bool work_create(work *w, const ves_curve_input *input, size_t room, ves_
     return w->room && w->sample && w->coef && w->slot;
 }
 
-static ves_status measure(const work *w, const ves_curve_input *input, int *modes, ves_diag *diag)
+static ves_status measure(work *w, const ves_curve_input *input, int *modes, ves_diag *diag)
 {
     double size;
+    char where[WHERE];
     probe(w, input, 0);
     *modes = spectrum(w, &size);
+    say_where(input, w, where);
     if (*modes < 0)
         return ves_diag_add(diag, VES_ERROR, VES_RANGE, ves_input_mark(input, OF),
-                            "the formulas are not finite numbers for every v from 0 to 2*pi");
+                            "the formulas are not finite numbers for every v from 0 to 2*pi%s", where);
     VES_TRY(check(input, w, size, diag));
     if (*modes > w->limit) warn(input, w, *modes, size, diag);
     *modes = modes_for_all(w, input, *modes);
@@ -199,8 +230,8 @@ static void eval(const ves_curve_input *input, double *out)
     double *point = input->room, *rest = point + 3 * s->map.points;
     for (int c = 0; c < 3; c++)
         for (int j = 0; j < s->map.points; j++) {
-            double v = VES_TWO_PI * j / s->map.points;
-            point[3 * j + c] = ves_formula_eval(formula[c], input->number, &v, rest);
+            const double argument[] = {VES_TWO_PI * j / s->map.points, section_at(input)};
+            point[3 * j + c] = ves_formula_eval(formula[c], input->number, argument, rest);
         }
     ves_modes_map_eval(&s->map, point, out);
 }
@@ -211,14 +242,16 @@ static void gradient(const ves_curve_input *input, const double *adjoint, double
     (void)input_adjoint;
     const state *s = input->state;
     const ves_formula *const *formula = input->args->arg[OF].formula;
-    double *seed = input->room, *rest = seed + 3 * s->map.points;
+    double *seed = input->room, *rest = seed + 3 * s->map.points, argument_adjoint[2] = {0};
     memset(seed, 0, 3 * (size_t)s->map.points * sizeof *seed);
     ves_modes_map_gradient(&s->map, adjoint, seed);
     for (int c = 0; c < 3; c++)
         for (int j = 0; j < s->map.points; j++) {
-            double v = VES_TWO_PI * j / s->map.points;
-            ves_formula_gradient(formula[c], input->number, &v, seed[3 * j + c], number_adjoint, NULL, rest);
+            const double argument[] = {VES_TWO_PI * j / s->map.points, section_at(input)};
+            ves_formula_gradient(formula[c], input->number, argument, seed[3 * j + c], number_adjoint,
+                                 argument_adjoint, rest);
         }
+    if (is_section(input)) ves_input_scatter(input, AT, 0, argument_adjoint[1], number_adjoint);
 }
 
 const ves_curve_op ves_curve_formula_op = {
