@@ -149,6 +149,13 @@ int ves_reader_curve(ves_reader *reader, const ves_node *node)
 {
     const ves_named *curve = ves_names_ask(reader, &reader->curves, node);
     if (!curve) return -1;
+    if (ves_node_find(curve->value, "family")) {
+        ves_reader_error(
+            reader, VES_NAME, node,
+            "\"%s\" is a family of curves, not one curve: only \"sections\" of a patch can use it",
+            curve->text);
+        return -1;
+    }
     return ves_reader_curve_read(reader, node, (ves_named *)curve);
 }
 
@@ -202,7 +209,9 @@ const int *ves_reader_patches(ves_reader *reader, const ves_node *node, int *cou
 
 static void formulas(ves_reader *reader, const ves_node *node, const ves_key *key, ves_arg *arg)
 {
-    static const ves_symbol both[] = {{"u", {0}}, {"v", {0}}};
+    const ves_symbol known[] = {{"u", {0}}, {"v", {0}}, {reader->parameter, {0}}},
+                     *own = reader->surface ? known : known + 1;
+    int count = reader->surface || reader->parameter ? 2 : 1;
     if (!is_list(reader, node, key->name, 3, "three formulas [x, y, z]")) return;
     const ves_formula **formula = ves_arena_take(reader->arena, 3, sizeof *formula);
     if (!ves_reader_memory(reader, formula)) return;
@@ -211,8 +220,7 @@ static void formulas(ves_reader *reader, const ves_node *node, const ves_key *ke
     for (int k = 0; k < 3; k++) {
         const ves_node *item = node->item[k];
         if (!ves_reader_word(reader, item, "formula")) continue;
-        formula[k] = ves_reader_formula(reader, ves_text_whole(item), reader->surface ? both : both + 1,
-                                        reader->surface ? 2 : 1);
+        formula[k] = ves_reader_formula(reader, ves_text_whole(item), own, count);
         if (formula[k]) ves_reader_check_dim(reader, item, key->name, key->unit, ves_formula_dim(formula[k]));
     }
 }

@@ -2,7 +2,10 @@
 #include "problem/reader.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
+
+enum { PARTS = 80 };
 
 /* What holds for all conditions of one list. */
 typedef struct place {
@@ -207,9 +210,10 @@ static void read_condition(const place *at, const ves_node *node, ves_condition 
 
 /* --- all of a patch --- */
 
-static void check_twice(ves_reader *reader, const ves_patch_def *patch)
+/* Of those from the first on, with all before them. */
+static void check_twice(ves_reader *reader, const ves_patch_def *patch, int first)
 {
-    for (int k = 0; k < patch->conditions; k++)
+    for (int k = first; k < patch->conditions; k++)
         for (int i = 0; i < k; i++) {
             const ves_condition *a = &patch->condition[i], *b = &patch->condition[k];
             if (a->u != b->u || a->derivative != b->derivative || a->u < 0) continue;
@@ -230,31 +234,70 @@ static bool is_list(ves_reader *reader, const ves_node *list, const char *name, 
     return false;
 }
 
+/* Room for more conditions behind those that are there; NULL: no memory. */
+static ves_condition *make_room(ves_reader *reader, int more, ves_patch_def *patch)
+{
+    int before = patch->conditions;
+    ves_condition *condition = ves_arena_take(reader->arena, (size_t)(before + more), sizeof *condition);
+    if (!ves_reader_memory(reader, condition)) return NULL;
+    for (int k = 0; k < before; k++) condition[k] = patch->condition[k];
+    patch->condition = condition;
+    patch->conditions += more;
+    return condition + before;
+}
+
 /* Appends the conditions of a list. */
 static void read_list(const place *at, const ves_node *list, ves_patch_def *patch)
 {
-    ves_reader *reader = at->reader;
-    int before = patch->conditions, count = before + list->count;
-    if (count > VES_CONDITIONS_MAX) return; /* somebody has complained */
-    ves_condition *condition = ves_arena_take(reader->arena, (size_t)count, sizeof *condition);
-    if (!ves_reader_memory(reader, condition)) return;
-    for (int k = 0; k < before; k++) condition[k] = patch->condition[k];
-    for (int k = before; k < count; k++) read_condition(at, list->item[k - before], &condition[k]);
-    patch->condition = condition;
-    patch->conditions = count;
-    check_twice(reader, patch);
+    int before = patch->conditions;
+    if (before + list->count > VES_CONDITIONS_MAX) return; /* somebody has complained */
+    ves_condition *condition = make_room(at->reader, list->count, patch);
+    for (int k = 0; condition && k < list->count; k++) read_condition(at, list->item[k], &condition[k]);
+    check_twice(at->reader, patch, before);
+}
+
+/* Appends those that joins ask for. */
+static void add_joined(ves_reader *reader, int index, int joined, ves_patch_def *patch)
+{
+    int before = patch->conditions;
+    if (joined <= 0 || before + joined > VES_CONDITIONS_MAX) return;
+    ves_condition *condition = make_room(reader, joined, patch);
+    if (condition) ves_reader_joined(reader, index, condition);
+    check_twice(reader, patch, before);
+}
+
+/* ": 4 by sections, 2 by joins", where it is not the list alone that counts. */
+static void parts(int sections, int listed, int joined, char text[PARTS])
+{
+    int at = 0, count[] = {sections, listed, joined};
+    static const char *const what[] = {"sections", "conditions", "joins"};
+    text[0] = 0;
+    for (int k = 0; k < 3 && (sections || joined); k++)
+        if (count[k])
+            at +=
+                snprintf(text + at, (size_t)(PARTS - at), "%s%d by %s", at ? ", " : ": ", count[k], what[k]);
+}
+
+static void check_count(ves_reader *reader, const ves_named *name, int listed, int joined,
+                        const ves_patch_def *patch)
+{
+    int wanted = 2 * patch->power, found = patch->conditions + listed + joined;
+    char text[PARTS];
+    if (!wanted || found == wanted || joined < 0) return;
+    parts(patch->conditions, listed, joined, text);
+    ves_reader_error(reader, VES_SINGULAR, name->word,
+                     "patch \"%s\" of order %d needs %d conditions, found %d%s", name->text, wanted, wanted,
+                     found, text);
 }
 
 void ves_reader_conditions(ves_reader *reader, const ves_named *name, const ves_node *list,
                            ves_patch_def *patch)
 {
-    int wanted = 2 * patch->power;
-    if (!is_list(reader, list, "conditions", "{u: 0, position: CURVE}")) return;
-    if (patch->power && list->count != wanted)
-        ves_reader_error(reader, VES_SINGULAR, name->word,
-                         "patch \"%s\" of order %d needs %d conditions, found %d", name->text, wanted, wanted,
-                         list->count);
-    read_list(&(place){reader, wanted, false}, list, patch);
+    int index = (int)(name - reader->patches.name), joined = ves_reader_joined(reader, index, NULL);
+    if (list && !is_list(reader, list, "conditions", "{u: 0, position: CURVE}")) return;
+    check_count(reader, name, list ? list->count : 0, joined, patch);
+    if (list) read_list(&(place){reader, 2 * patch->power, false}, list, patch);
+    add_joined(reader, index, joined, patch);
 }
 
 /* From order 2N to 2N' without a change of the surface, then away from it [Kubiesa 2004, 5.2]. */

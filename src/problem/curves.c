@@ -143,6 +143,16 @@ static const ves_curve_op *find_source(ves_reader *reader, const ves_named *name
     return source;
 }
 
+/* The source of a curve, or of the sections of a family. */
+static void read_source(ves_reader *reader, const ves_curve_op *source, const ves_node *value, int at,
+                        steps *s)
+{
+    const ves_node *family = ves_node_find(value, "family");
+    if (family) reader->parameter = ves_reader_family(reader, family, source);
+    if (!family || reader->parameter) add_step(reader, source, value->key[at], value->item[at], s);
+    reader->parameter = NULL;
+}
+
 static void read_steps(ves_reader *reader, ves_named *name, const ves_node *vary, ves_curve_def *curve)
 {
     const ves_node *value = name->value, *apply = ves_node_find(value, "apply"), *moves[3];
@@ -151,13 +161,27 @@ static void read_steps(ves_reader *reader, ves_named *name, const ves_node *vary
     steps s = {.room = 4 + (given < MOVES ? given : MOVES)};
     s.step = ves_arena_take(reader->arena, (size_t)s.room, sizeof *s.step);
     if (!ves_reader_memory(reader, s.step)) return;
-    if (source) add_step(reader, source, value->key[at], value->item[at], &s);
+    if (source) read_source(reader, source, value, at, &s);
     if (s.count && reader->status != VES_MEMORY) note_inputs(reader, value->key[at], &s.step[0].args, curve);
     if (apply) read_apply(reader, apply, &s);
     ves_vary_moves(reader, vary, name, moves, &extra);
     for (int k = 0; k < extra; k++) read_move(reader, moves[k], &s);
     curve->step = s.step;
     curve->steps = s.count;
+}
+
+/* A family is no curve: only its sections are. */
+static int keep(ves_reader *reader, ves_named *name, const ves_curve_def *curve)
+{
+    const ves_node *family = ves_node_find(name->value, "family");
+    if (family) {
+        reader->family[name - reader->curves.name] = (ves_family){
+            family->kind == VES_NODE_WORD ? family->text : "", curve->step, curve->steps, curve->dim, false};
+        return -1;
+    }
+    name->index = reader->curves_read++;
+    reader->curve[name->index] = *curve;
+    return name->index;
 }
 
 int ves_reader_curve_read(ves_reader *reader, const ves_node *node, ves_named *name)
@@ -186,20 +210,30 @@ int ves_reader_curve_read(ves_reader *reader, const ves_node *node, ves_named *n
     reader->free_name = outer.free_name;
     reader->lengths = outer.lengths;
     name->open = false;
-    name->index = reader->curves_read++;
     curve.dim = dim;
-    reader->curve[name->index] = curve;
-    return name->index;
+    return keep(reader, name, &curve);
+}
+
+static size_t sections_most(const ves_reader *reader)
+{
+    size_t count = 0;
+    for (int k = 0; k < reader->patches.count; k++)
+        count += ves_node_find(reader->patches.name[k].value, "sections") ? VES_CONDITIONS_MAX : 0;
+    return count;
 }
 
 void ves_reader_curves(ves_reader *reader, const ves_fields *root)
 {
     const ves_node *modes = ves_fields_find(root, "modes");
     ves_problem *problem = reader->problem;
-    size_t count = (size_t)reader->curves.count;
-    reader->curve = ves_arena_take(reader->arena, count, sizeof *reader->curve);
-    reader->curve_used = ves_arena_take(reader->arena, count, sizeof *reader->curve_used);
-    if (!ves_reader_memory(reader, reader->curve) || !ves_reader_memory(reader, reader->curve_used)) return;
+    size_t count = (size_t)reader->curves.count, all = count + sections_most(reader);
+    reader->curve = ves_arena_take(reader->arena, all, sizeof *reader->curve);
+    reader->curve_used = ves_arena_take(reader->arena, all, sizeof *reader->curve_used);
+    reader->family = ves_arena_take(reader->arena, count, sizeof *reader->family);
+    reader->section = ves_arena_take(reader->arena, all - count, sizeof *reader->section);
+    if (!ves_reader_memory(reader, reader->curve) || !ves_reader_memory(reader, reader->curve_used) ||
+        !ves_reader_memory(reader, reader->family) || !ves_reader_memory(reader, reader->section))
+        return;
     for (size_t k = 0; k < count; k++)
         ves_reader_curve_read(reader, reader->curves.name[k].word, &reader->curves.name[k]);
     problem->curve = reader->curve;

@@ -20,7 +20,8 @@ static int weight_of(const ves_reader *reader, int owner)
     if (owner == -1) return DRIVES;
     if (owner < -1) return IDLE; /* parameters count where they are used, checks never */
     int curve = reader->curves.name[owner].index;
-    return curve >= 0 && reader->curve_used[curve] ? DRIVES : BY_UNUSED_CURVE;
+    bool used = curve >= 0 ? reader->curve_used[curve] : reader->family[owner].used;
+    return used ? DRIVES : BY_UNUSED_CURVE;
 }
 
 static void mark_slots(const ves_reader *reader, const ves_formula *formula, int weight, char *use)

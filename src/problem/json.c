@@ -148,10 +148,13 @@ static void properties(ves_writer *w, const ves_entry *table, const ves_measure 
 
 static void source(ves_writer *w, const ves_entry *e, const ves_measure *const *plugin)
 {
-    const ves_entry *apply = ves_schema_find(e->table, "apply");
-    ves_write(w, "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{\"apply\":");
-    entry(w, apply, plugin);
-    curve_operations(w, false, ",");
+    ves_write(w, "\"type\":\"object\",\"additionalProperties\":false,\"properties\":{");
+    const char *gap = "";
+    for (const ves_entry *key = e->table; key->key.name; key++, gap = ",") {
+        ves_write(w, "%s\"%s\":", gap, key->key.name);
+        entry(w, key, plugin);
+    }
+    curve_operations(w, false, gap);
     ves_write(w, "}");
 }
 

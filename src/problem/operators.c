@@ -49,7 +49,7 @@ static void read_power(ves_reader *reader, const ves_fields *f, ves_patch_def *p
 {
     const ves_field *power = ves_fields_field(f, "power");
     int before = reader->errors;
-    long value = ves_reader_count(reader, power->node, power->key);
+    long value = power->node ? ves_reader_count(reader, power->node, power->key) : patch->power;
     ves_arg a;
     ves_reader_arg(reader, ves_fields_field(f, "a"), &a);
     patch->operators = 1;
@@ -69,7 +69,9 @@ void ves_reader_operator(ves_reader *reader, const ves_node *node, ves_patch_def
 {
     static const char *const axis[3] = {"x", "y", "z"}, *const all[3] = {"coefficients"};
     ves_fields f;
-    if (!ves_fields_read(reader, node, table_of("operator"), "operator", &f) || excused(&f)) return;
+    const ves_node none = {.kind = VES_NODE_MAP};
+    if (!ves_fields_read(reader, node ? node : &none, table_of("operator"), "operator", &f) || excused(&f))
+        return;
     const ves_node *power = ves_fields_find(&f, "power"), *list = ves_fields_find(&f, "coefficients");
     int axes = 0;
     for (int k = 0; k < 3; k++) axes += ves_fields_find(&f, axis[k]) != NULL;
@@ -77,13 +79,13 @@ void ves_reader_operator(ves_reader *reader, const ves_node *node, ves_patch_def
     if (forms > 1)
         ves_reader_error(reader, VES_SYNTAX, node,
                          "an operator is one of power, coefficients, or x, y and z");
-    else if (!forms)
+    else if (!forms && !patch->power)
         ves_reader_error(reader, VES_NAME, node,
                          "\"operator\" lacks \"power\", \"coefficients\", or \"x\", \"y\" and \"z\"");
-    else if (!power && ves_fields_find(&f, "a"))
+    else if (forms && !power && ves_fields_find(&f, "a"))
         ves_reader_error(reader, VES_SYNTAX, ves_fields_field(&f, "a")->word,
                          "\"a\" belongs to \"power\"; coefficients say it all");
-    else if (power)
+    else if (power || !forms)
         read_power(reader, &f, patch);
     else if (list)
         read_lists(reader, &f, all, 1, patch);

@@ -31,26 +31,43 @@ static void read_rest(ves_reader *reader, const ves_fields *f, ves_patch_def *pa
     if (spine->node) ves_reader_spine(reader, spine, patch);
 }
 
+/* Sections tell the order, together with what else the surface meets, unless the operator does. */
+static bool read_sections(ves_reader *reader, const ves_named *name, const ves_node *node,
+                          const ves_node *conditions, ves_patch_def *patch)
+{
+    ves_condition *condition = ves_arena_take(reader->arena, VES_CONDITIONS_MAX, sizeof *condition);
+    if (!ves_reader_memory(reader, condition)) return false;
+    int joined = ves_reader_joined(reader, (int)(name - reader->patches.name), NULL);
+    int all = patch->conditions = ves_reader_sections(reader, node, condition);
+    if (conditions && conditions->kind == VES_NODE_LIST) all += conditions->count;
+    if (joined > 0) all += joined;
+    patch->power = all < VES_CONDITIONS_MAX ? (all + 1) / 2 : VES_POWER_MAX;
+    patch->condition = condition;
+    return patch->conditions > 0;
+}
+
 static void read_pde(ves_reader *reader, const ves_named *name, const ves_fields *f, ves_patch_def *patch)
 {
     static const char *const only_surface[] = {"periodic", "domain"};
-    const ves_node *pde = ves_fields_find(f, "operator"), *conditions = ves_fields_find(f, "conditions");
+    const ves_node *pde = ves_fields_find(f, "operator"), *conditions = ves_fields_find(f, "conditions"),
+                   *sections = ves_fields_find(f, "sections");
     for (int k = 0; k < 2; k++)
         if (ves_fields_find(f, only_surface[k]))
             ves_reader_error(reader, VES_SYNTAX, ves_fields_field(f, only_surface[k])->word,
                              "\"%s\" belongs to a patch with \"surface\"", only_surface[k]);
-    if (!pde)
+    patch->kind = VES_PATCH_PDE;
+    patch->periodic = true;
+    if (sections && !read_sections(reader, name, sections, conditions, patch)) return;
+    if (!pde && !sections)
         ves_reader_error(reader, VES_NAME, name->word, "patch \"%s\" lacks \"operator\" (or \"surface\")",
                          name->text);
     else
         ves_reader_operator(reader, pde, patch);
-    if (!conditions)
+    if (!conditions && !sections)
         ves_reader_error(reader, VES_NAME, name->word, "patch \"%s\" lacks \"conditions\"", name->text);
     else
         ves_reader_conditions(reader, name, conditions, patch);
     read_rest(reader, f, patch);
-    patch->kind = VES_PATCH_PDE;
-    patch->periodic = true;
 }
 
 enum { POINTS_MOST = 1000 }; /* of a side: splines through n points take n^2 numbers */
@@ -114,7 +131,7 @@ static void read_surface(ves_reader *reader, const ves_node *node, const ves_fie
     ves_fields f;
     for (int k = 0; k < outer->count; k++) {
         const char *name = outer->field[k].key->name;
-        bool pde = ves_words_find("operator|conditions|modes|remainder|raise|spine", name) >= 0;
+        bool pde = ves_words_find("operator|conditions|sections|modes|remainder|raise|spine", name) >= 0;
         if (pde && outer->field[k].node)
             ves_reader_error(reader, VES_SYNTAX, outer->field[k].word, "\"%s\" does not go with \"surface\"",
                              name);
@@ -220,7 +237,7 @@ void ves_reader_places(ves_reader *reader, const ves_fields *root)
 }
 
 /* wall.u0 */
-static bool read_end(ves_reader *reader, const ves_node *node, ves_end *end)
+bool ves_reader_end(ves_reader *reader, const ves_node *node, ves_end *end)
 {
     *end = (ves_end){.mark = ves_reader_mark(reader, node), .patch = -1};
     if (!ves_reader_word(reader, node, "end of a patch, as in wall.u0")) return false;
@@ -250,7 +267,7 @@ static void read_caps(ves_reader *reader, const ves_node *node, ves_shape_def *s
     ves_end *end = ves_arena_take(reader->arena, (size_t)count, sizeof *end);
     if (!ves_reader_memory(reader, end)) return;
     for (int k = 0; k < count; k++) {
-        if (!read_end(reader, item[k], &end[shape->caps])) continue;
+        if (!ves_reader_end(reader, item[k], &end[shape->caps])) continue;
         bool twice = false;
         for (int i = 0; i < shape->caps; i++)
             twice = twice || (end[i].patch == end[shape->caps].patch && end[i].end == end[shape->caps].end);

@@ -47,6 +47,33 @@ typedef struct ves_reader_limit {
     int owner;
 } ves_reader_limit;
 
+/* What the sections of a family of curves are made of. */
+typedef struct ves_family {
+    const char *parameter; /* NULL: the name is that of an ordinary curve */
+    const ves_curve_step *step;
+    int steps;
+    ves_dim dim;
+    bool used; /* some patch has sections of it */
+} ves_family;
+
+/* A section that is an end of a patch: another patch that ends there has the same curve. */
+typedef struct ves_section {
+    int family;       /* index in the names of curves */
+    const char *text; /* of the parameter's number, where it varies, or NULL */
+    double at;        /* where it does not */
+    int curve;
+} ves_section;
+
+/* A join: what it asks of the two ends. */
+typedef struct ves_join {
+    const ves_node *node;
+    bool good; /* the ends are known */
+    bool bends;
+    ves_end end[2];
+    int field[2];            /* curves: tangent and bend; -1 after an error */
+    int scale[2], square[2]; /* number block indices of the ends' scales and of their squares; -1: 1 */
+} ves_join;
+
 typedef struct ves_reader {
     ves_arena *arena;
     const ves_script *script;
@@ -76,14 +103,20 @@ typedef struct ves_reader {
     ves_dim *free;             /* dimension of keys without a unit; NULL: none is asked */
     const ves_node *free_node; /* of a curve: what fixed it, and as which key */
     const char *free_name;
-    bool lengths; /* those keys are most likely lengths: a curve is being read */
-    bool surface; /* FORMULAS are of u and v, not of v alone */
+    bool lengths;          /* those keys are most likely lengths: a curve is being read */
+    bool surface;          /* FORMULAS are of u and v, not of v alone */
+    const char *parameter; /* of a family, whose FORMULAS are of v and it; or NULL */
 
     ves_names curves, patches, places, measures;
     const ves_node *vary; /* the section, or NULL */
     bool *curve_used;     /* [curves] */
-    ves_curve_def *curve; /* [curves] in the order of the problem */
+    ves_curve_def *curve; /* [curves and sections] in the order of the problem */
     int curves_read;
+    ves_family *family;   /* [curves] */
+    ves_section *section; /* ends, two of a patch at most */
+    int sections;
+    ves_join *join;
+    int joins;
     ves_measure_def *measure; /* configured, then plain ones as formulas name them */
     int measures_read;
 } ves_reader;
@@ -171,8 +204,14 @@ bool ves_reader_flag(ves_reader *reader, const ves_node *node, const ves_key *ke
 const int *ves_reader_patches(ves_reader *reader, const ves_node *node, int *count);
 int ves_reader_curve(ves_reader *reader, const ves_node *node); /* index, or -1 */
 
-/* curves.c: the index of a curve, which is read first when it has not been; node: who asks */
+/* curves.c: the index of a curve, which is read first when it has not been; -1: it is a family, or made of
+ * itself. node: who asks */
 int ves_reader_curve_read(ves_reader *reader, const ves_node *node, ves_named *curve);
+
+/* sections.c: the parameter of a family that is being read, or NULL after an error; and the position
+ * conditions that the sections of a patch are, at most VES_CONDITIONS_MAX. Returns how many. */
+const char *ves_reader_family(ves_reader *reader, const ves_node *family, const ves_curve_op *source);
+int ves_reader_sections(ves_reader *reader, const ves_node *node, ves_condition *out);
 
 /* slots.c: names and values of variables, unknown, parameters */
 void ves_reader_slots(ves_reader *reader, const ves_fields *root);
@@ -197,15 +236,23 @@ void ves_vary_moves(ves_reader *reader, const ves_node *vary, const ves_named *c
 void ves_reader_curves(ves_reader *reader, const ves_fields *root);
 void ves_reader_patches_section(ves_reader *reader, const ves_fields *root);
 /* operators.c, conditions.c, spine.c: parts of a PDE patch. The operator, whose order the conditions follow,
- * first; what raises the order after them; the spine, which needs to know the ends, last. */
+ * first (NULL: there is none, and sections have told patch->power); what raises the order after them; the spine,
+ * which needs to know the ends, last. conditions: adds those of the list, which may be NULL, and of joins to what
+ * sections have put into patch->condition. */
 void ves_reader_operator(ves_reader *reader, const ves_node *node, ves_patch_def *patch);
 void ves_reader_remainder(ves_reader *reader, const ves_node *node, ves_patch_def *patch);
 void ves_reader_conditions(ves_reader *reader, const ves_named *name, const ves_node *list,
                            ves_patch_def *patch);
 void ves_reader_raise(ves_reader *reader, const ves_field *field, ves_patch_def *patch);
 void ves_reader_spine(ves_reader *reader, const ves_field *field, ves_patch_def *patch);
+/* joins.c: read before the patches, and checked after them. joined: the conditions that they add to a patch;
+ * out: takes them, or NULL; returns how many there are; -1: the ends of some join are not known. */
+void ves_reader_joins(ves_reader *reader, const ves_fields *root);
+int ves_reader_joined(ves_reader *reader, int patch, ves_condition *out);
+void ves_reader_joins_check(ves_reader *reader, const ves_fields *root);
 void ves_reader_places(ves_reader *reader, const ves_fields *root);
-void ves_reader_settings(ves_reader *reader, const ves_fields *root); /* shape, validity, quadrature */
+void ves_reader_settings(ves_reader *reader, const ves_fields *root);        /* shape, validity, quadrature */
+bool ves_reader_end(ves_reader *reader, const ves_node *node, ves_end *end); /* wall.u0 */
 void ves_reader_shape(ves_reader *reader, const ves_node *node);
 void ves_reader_validity(ves_reader *reader, const ves_node *node);
 void ves_reader_quadrature(ves_reader *reader, const ves_node *node);

@@ -42,7 +42,7 @@ static const ves_entry move[] = {
 
 static const ves_entry curve_keys[] = {
     {{"apply", KIND(VES_LIST), .about = "moves, applied in this order"}, "apply: [{dilate: 2}, {translate: [0, 0, 1]}]", move},
-    LATER("family", "a family of curves for a patch made of sections"),
+    {{"family", KIND(VES_NEW), .about = "with formula: a family of curves, not one; the name of the plain number that tells them apart, which the formula may use besides v. Sections of a patch use it, nothing else does"}, "family: w", NULL},
     END};
 
 static const ves_entry curve[] = {
@@ -105,9 +105,22 @@ static const ves_entry domain_keys[] = {
     {{"v", KIND(VES_SPAN), .about = "[from, to], 0 to 2*pi unless given"}, "v: [0, 2*pi]", NULL},
     END};
 
+static const ves_entry section_curve[] = {
+    {{"curve", VES_CURVE, .about = "a curve"}, "p1", NULL},
+    END};
+
+static const ves_entry sections_keys[] = {
+    {{"of", VES_CURVE, .about = "the family that is sampled, at w = from + u (to - from)"}, "of: sec", NULL},
+    {{"w", KIND(VES_SPAN), .about = "[from, to]: what the family's number runs over, whatever its name; may vary"}, "w: [0, 2*pi]", NULL},
+    {{"count", VES_COUNT, .min = 2, .max = VES_CONDITIONS_MAX, .about = "how many sections of the family"}, "count: 40", NULL},
+    {{"curves", KIND(VES_LIST), .about = "instead of of, w and count: the curves themselves, from u = 0 to u = 1"}, "curves: [p1, p2, p3, p4]", section_curve},
+    {{"nodes", VES_CHOICE, .words = "chebyshev|equal", .about = "where they stand: section i of 0 ... K - 1 at u = (1 - cos(pi i/(K - 1)))/2, or equally spaced, which from some ten sections on swings wildly between them"}, "nodes: chebyshev", NULL},
+    END};
+
 static const ves_entry patch_keys[] = {
     {{"operator", KIND(VES_MAP), .about = "the partial differential equation: (d_uu + a^2 d_vv)^power X = 0, or one with coefficients"}, "operator: {power: 2, a: 1}", operator_keys},
     {{"conditions", KIND(VES_LIST), .about = "what the surface meets, at its ends and inside: as many as the order, 2 * power, none of them twice"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
+    {{"sections", KIND(VES_MAP), .about = "curves that the surface passes through, placed along u; the order of the equation follows from how many there are"}, "sections: {of: sec, w: [0, 2*pi], count: 40}", sections_keys},
     {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved one by one; 0: chosen, see remainder, which may have it instead"}, "modes: 8", NULL},
     {{"remainder", KIND(VES_MAP), .about = "what becomes of the modes of the data beyond those that are solved: all of them cross the patch as one mode would, with lam = omega, so that every condition is met exactly; the equation is not, there. Conditions inside a patch amplify fine detail beyond all bounds, and this is what tames it"}, "remainder: {modes: 6, omega: auto}", remainder_keys},
     {{"raise", KIND(VES_LIST), .about = "conditions that raise the order, two for each power, and say how far the surface departs there from that of the lower order: by field, from and to, or differences at a derivative that is still free, or by nothing at all, which means 0; while all are 0 the surface is that of the lower order, with as many modes solved (only with power)"}, "raise: [{u: 0, derivative: 2, field: bend}, {u: 1, derivative: 2}]", raised},
@@ -115,7 +128,6 @@ static const ves_entry patch_keys[] = {
     {{"surface", KIND(VES_MAP), .about = "instead of operator and conditions: the surface itself; edges of it that lie on each other are joined, but not with those of other patches"}, "surface: {formula: [u, v, \"u*v\"]}", surface_keys},
     {{"periodic", VES_FLAG, .fallback = 1, .about = "the surface closes in v (only with surface)"}, "periodic: false", NULL},
     {{"domain", KIND(VES_MAP), .about = "what u and v run over in the formulas of the surface, and of integral, min and max over it; places, vesica sample and files count u 0 to 1 and v 0 to 2*pi whatever stands here (only with surface: formula)"}, "domain: {u: [0, 1], v: [0, 2*pi]}", domain_keys},
-    LATER("sections", "patches through sections of a family"),
     END};
 
 static const ves_entry patch[] = {
@@ -134,6 +146,21 @@ static const ves_entry place[] = {
 
 static const ves_entry end[] = {
     {{"end", KIND(VES_END), .about = "an end of a patch: its name, then .u0 or .u1"}, "wall.u0", NULL},
+    END};
+
+static const ves_entry join_scale[] = {
+    {{"scale", VES_NUMBER, .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 1, .about = "a length of the derivative"}, "1.5", NULL},
+    END};
+
+static const ves_entry join_keys[] = {
+    {{"ends", KIND(VES_LIST), .required = true, .about = "the two ends"}, "ends: [top.u1, side.u0]", end},
+    {{"tangent", VES_CURVE, .required = true, .about = "X_u = scale * tangent at the first end; so at the second, where u = 0 meets u = 1, and -scale * tangent where both are u = 0 or both u = 1: one condition of each patch"}, "tangent: tilt", NULL},
+    {{"scale", KIND(VES_LIST), .about = "more than 0: one number, 1 unless given, which makes the surface once (with bend twice) continuously differentiable; or one for each end, which keeps the tangent planes (with bend the curvatures) together"}, "scale: [m1, m2]", join_scale},
+    {{"bend", VES_CURVE, .about = "X_uu = scale^2 * bend at both ends: one more condition of each patch"}, "bend: arch", NULL},
+    END};
+
+static const ves_entry join[] = {
+    {{"join", KIND(VES_MAP), .about = "two ends on one curve, and the field that gives both their derivative"}, "{ends: [top.u1, side.u0], tangent: tilt, scale: [m1, m2]}", join_keys},
     END};
 
 static const ves_entry shape_keys[] = {
@@ -237,6 +264,7 @@ static const ves_entry root[] = {
     {{"curves", KIND(VES_NAMED), .about = "closed curves, and fields along them"}, "curves: {p1: {circle: {radius: 1}}}", curve},
     {{"modes", VES_COUNT, .min = 1, .max = 4096, .fallback = VES_CURVE_MODES, .about = "most Fourier modes of a curve"}, "modes: 64", NULL},
     {{"patches", KIND(VES_NAMED), .required = true, .about = "surfaces between curves"}, "patches: {wall: {operator: {power: 1}, conditions: [{u: 0, position: p1}, {u: 1, position: p2}]}}", patch},
+    {{"joins", KIND(VES_LIST), .about = "ends that lie on one curve and go on smoothly into each other: the conditions on the derivatives there, of both patches, come from one field"}, "joins: [{ends: [top.u1, side.u0], tangent: tilt, scale: [m1, m2], bend: arch}]", join},
     {{"places", KIND(VES_NAMED), .about = "named points of patches"}, "places: {tip: {patch: wall, u: 0.5, v: pi}}", place},
     {{"shape", KIND(VES_MAP), .about = "how the patches form one shape"}, "shape: {closed: true, caps: [wall.u0, wall.u1]}", shape_keys},
     {{"scale", KIND(VES_MAP), .about = "scales the whole shape about the origin so that an equation holds exactly"}, "scale: {equation: area == 4*pi}", scale_keys},
@@ -254,7 +282,6 @@ static const ves_entry root[] = {
     LATER("shell", "thin-shell analysis"),
     LATER("sweep", "studies over parameters"),
     LATER("branches", "studies along branches of solutions"),
-    LATER("joins", "joins that are made rather than found by shared curves"),
     LATER("animate", "parameters that follow time"),
     END};
 

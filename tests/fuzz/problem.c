@@ -89,6 +89,13 @@ static void check_problem(const ves_problem *p)
         require(p->curve[k].steps > 0 && !p->curve[k].step[0].op->move, "a curve without a source");
         for (int i = 0; i < p->curve[k].inputs; i++)
             require(p->curve[k].input[i] >= 0 && p->curve[k].input[i] < k, "an input that comes later");
+        const ves_args *source = &p->curve[k].step[0].args;
+        bool formula = source->count && source->key[0].kind == VES_FORMULAS;
+        for (int i = 0; formula && i < 3; i++)
+            require(source->arg[0].formula[i] != NULL, "a curve without a formula");
+        for (int i = 0; formula && i < 3; i++) /* of v, and of the number of its family */
+            require(!ves_formula_uses_argument(source->arg[0].formula[i], source->count),
+                    "a section without its number");
         for (int i = 0; i < p->curve[k].steps; i++) check_args(p, &p->curve[k].step[i].args);
     }
     for (int k = 0; k < p->patches; k++) {
@@ -192,7 +199,12 @@ static const char *const dictionary[] = {
     "formula: ",
     "like: ",
     "combine: ",
-    "family: ",
+    "family: w, ",
+    "sections: {of: sec, w: [0, 1], count: 4}",
+    "sections: {curves: [p1, p2]}",
+    "nodes: ",
+    "joins: [",
+    "{ends: [wall.u0, wall.u1], tangent: p1, scale: [1, 2], bend: p2}",
     "apply: [",
     "{translate: ",
     "{rotate: ",
