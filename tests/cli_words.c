@@ -194,3 +194,36 @@ Test(cli_words, a_curve_that_crosses_itself_is_named)
     }
     root_remove();
 }
+
+Test(cli_words, spines_are_written_beside_the_shape)
+{
+    root_make();
+    tube_write("tube.yaml", "", "{circle: {radius: 1, centre: [0, 0, 3]}}");
+    write_file("sheet.yaml",
+               "vesica: 1\npatches: {s: {surface: {formula: [\"cos(v)\", \"sin(v)\", \"u\"]}}}\n");
+    outcome o = vesica(NULL, "export tube.yaml --to vtp,stl,obj,csv --spines --grid 2x12");
+    cr_assert(eq(int, o.code, 0), "%s", o.err);
+    cr_assert(
+        eq(str, o.out,
+           "tube.vtp\ntube-spines.vtp\ntube.stl\ntube.obj\ntube-spines.obj\ntube.csv\ntube-spines.csv\n"));
+    done(&o);
+    char *csv = slurp("tube-spines.csv");
+    cr_assert(eq(int, count(csv, "\n"), 4), "%s", csv);
+    free(csv);
+    expect(vesica(NULL, "export tube.yaml --to csv"), 0, "tube-2.csv", NULL, "no spines unless asked for");
+    expect(vesica(NULL, "export tube.yaml --to stl,off --spines"), 2, NULL,
+           "no format of --to \"stl,off\" has lines; add vtp, obj or csv", "meshes");
+    expect(vesica(NULL, "export sheet.yaml --to vtp --spines"), 2, NULL,
+           "no patch of this shape has a spine: none is the solution of a PDE", "a sheet");
+    expect(vesica(NULL, "show tube.yaml --spines"), 0, "tube.png", NULL, "show");
+    /* the axis, straight, with its speed and no curvature */
+    o = vesica(NULL, "sample tube.yaml --spine 3");
+    cr_assert(strstr(o.out, "u,x,y,z,xu,yu,zu,xuu,yuu,zuu\n0,") == o.out, "%s", o.out);
+    double at[10];
+    const char *line = strstr(o.out, "\n0.5,") + 1;
+    for (int k = 0; k < 10; k++) at[k] = strtod(line, (char **)&line), line++;
+    static const double want[] = {0.5, 0, 0, 1.5, 0, 0, 3, 0, 0, 0};
+    for (int k = 0; k < 10; k++) cr_assert(fabs(at[k] - want[k]) < 1e-14, "%d: %.17g", k, at[k]);
+    done(&o);
+    root_remove();
+}

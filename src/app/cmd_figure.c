@@ -58,20 +58,44 @@ static char *stem_of(app *a, const char *name, int *code)
     return stem;
 }
 
+/* One file, whose name must be free: STEM.FORMAT, STEM-2.FORMAT ... */
+static int write_one(app *a, ves_figure *figure, const char *stem, const ves_format *format, bool spines)
+{
+    char *path = stem ? ves_folder_free(stem, format->name, &a->arena) : NULL;
+    if (!path) return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
+    ves_status status = (spines ? format->spines : format->write)(figure, path, a->diag);
+    if (status == VES_OK) printf("%s\n", path);
+    return app_code(status);
+}
+
 static int write_all(app *a, ves_figure *figure, const char *stem, const ves_format **format, int count)
 {
+    char *spines = a->options.spines ? ves_arena_format(&a->arena, "%s-spines", stem) : NULL;
     app_interrupt_listen(); /* a file that has begun is ended; a second Ctrl-C kills */
     for (int k = 0; k < count; k++) {
         if (app_interrupt_asked())
             return app_fail(a, VES_INTERRUPTED, "interrupted: %d of %d files are not written", count - k,
                             count);
-        char *path = ves_folder_free(stem, format[k]->name, &a->arena);
-        if (!path) return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
-        ves_status status = format[k]->write(figure, path, a->diag);
-        if (status != VES_OK) return app_code(status);
-        printf("%s\n", path);
+        int code = write_one(a, figure, stem, format[k], false);
+        if (code == APP_DONE && a->options.spines && format[k]->spines)
+            code = write_one(a, figure, spines, format[k], true);
+        if (code != APP_DONE) return code;
     }
     return APP_DONE;
+}
+
+/* --spines needs a format that has lines, and a patch that has a spine. */
+static int spines_check(app *a, const ves_problem *p, const ves_format **format, int count)
+{
+    bool lines = false, any = false;
+    for (int k = 0; k < count; k++) lines = lines || format[k]->spines;
+    for (int k = 0; k < p->patches; k++) any = any || p->patch[k].kind == VES_PATCH_PDE;
+    if (!a->options.spines || (lines && any)) return APP_DONE;
+    if (any)
+        return app_fail(a, VES_USAGE, "--spines: no format of --to \"%s\" has lines; add vtp, obj or csv",
+                        a->options.to);
+    return app_fail(a, VES_USAGE,
+                    "--spines: no patch of this shape has a spine: none is the solution of a PDE");
 }
 
 /* In the unit that is asked for. A file without units has no metres that could be turned into it. */
@@ -104,7 +128,8 @@ int app_export(app *a)
         return app_fail(a, VES_USAGE, "vesica export needs --to FORMAT (vesica list formats)");
     code = formats_read(a, format, &count);
     if (code != APP_DONE || !app_shape_open(a, &shape, &code)) return code;
-    char *stem = stem_of(a, shape.opened.name, &code);
+    code = spines_check(a, shape.opened.problem, format, count);
+    char *stem = code == APP_DONE ? stem_of(a, shape.opened.name, &code) : NULL;
     ves_figure *figure = stem ? app_shape_figure(a, &shape, &code) : NULL;
     if (figure) code = convert(a, figure);
     if (figure && code == APP_DONE) {
@@ -120,6 +145,7 @@ static ves_view view_of(const app_options *o)
 {
     ves_view view = ves_view_default();
     if (o->colour) view.colour = o->colour;
+    view.spines = o->spines;
     if (o->viewed) view.azimuth = o->view[0], view.height_angle = o->view[1];
     return view;
 }

@@ -94,9 +94,12 @@ static int spine(app *a, ves_plan *plan, const ves_problem *problem, int patch)
         return app_fail(a, VES_USAGE, "patch \"%s\" has no spine: it is not the solution of a PDE",
                         problem->patch[patch].name);
     if (status != VES_OK) return app_fail(a, status, "%s", ves_status_text(status));
-    printf("u,x,y,z\n");
-    for (int k = 0; k < count; k++)
-        printf("%.17g,%.17g,%.17g,%.17g\n", u[k], value[k], value[count + k], value[2 * count + k]);
+    printf("u,x,y,z,xu,yu,zu,xuu,yuu,zuu\n");
+    for (int k = 0; k < count; k++) {
+        printf("%.17g", u[k]);
+        for (int f = 0; f < 9; f++) printf(",%.17g", value[f * count + k]);
+        putchar('\n');
+    }
     return APP_DONE;
 }
 

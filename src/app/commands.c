@@ -21,9 +21,9 @@ const app_command app_commands[] = {
      "formulas\n"
      "of a sheet other ranges; derivatives are by these u and v."},
     {"export", "export FILE|RUN", "write the shape for other programs", 1, 1,
-     "set|start|plugin|to|unit|out|grid", app_export, NULL},
-    {"show", "show FILE|RUN", "draw the shape", 1, 1, "set|start|plugin|png|colour|view|grid", app_show,
-     NULL},
+     "set|start|plugin|to|unit|out|grid|spines", app_export, NULL},
+    {"show", "show FILE|RUN", "draw the shape", 1, 1, "set|start|plugin|png|colour|view|grid|spines",
+     app_show, NULL},
     {"new", "new [TEMPLATE [FILE]]",
      "write a commented problem file to begin with; alone: list the templates", 0, 2, "", app_new, NULL},
     {"list", "list measures|curves|moves|algorithms|formats|units|templates", "what problem files may use", 0,

@@ -170,6 +170,7 @@ FLAG(json)
 FLAG(test)
 FLAG(no_files)
 FLAG(reference)
+FLAG(spines)
 FLAG(help)
 #undef FLAG
 
@@ -189,7 +190,8 @@ static const option table[] = {
     {"plugin", "FILE", "load measures from a shared object; may be repeated", take_plugin},
     {"patch", "NAME", "which patch (needed when there are several)", take_patch},
     {"points", "FILE", "CSV of u (0 to 1), v (0 to 2 pi), whatever `domain` says; - is stdin", take_points},
-    {"spine", "N", "N points of the spine, the mean over v: CSV u, x, y, z", take_spine},
+    {"spine", "N", "N points of the spine, the mean over v, from end to end, with its first two derivatives by u", take_spine},
+    {"spines", NULL, "the spines of PDE patches too: drawn over the shape, or in files NAME-spines.vtp, .obj, .csv", take_spines},
     {"to", "FORMAT[,FORMAT]", "see vesica list formats", take_to},
     {"unit", "UNIT", "of the lengths in the files: mm, cm ...; m, unless said, whatever the problem file writes", take_unit},
     {"grid", "NUxNV", "cells along u and v of each patch", take_grid},

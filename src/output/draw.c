@@ -8,7 +8,7 @@
 
 enum { NAMES = 8, LABEL = 64 };
 
-static const ves_rgb ink = {0.16, 0.19, 0.23}, quiet = {0.42, 0.46, 0.51};
+static const ves_rgb ink = {0.16, 0.19, 0.23}, quiet = {0.42, 0.46, 0.51}, marrow = {0.86, 0.33, 0.05};
 
 typedef struct sheet {
     cairo_t *cairo;
@@ -125,8 +125,8 @@ static void piece_draw(const sheet *s, const ves_piece *p)
     if (p->corners == 2) {
         cairo_move_to(s->cairo, p->x[0], p->y[0]);
         cairo_line_to(s->cairo, p->x[1], p->y[1]);
-        colour(s, ink, 1);
-        cairo_set_line_width(s->cairo, 1.8 * s->unit);
+        colour(s, p->spine ? marrow : ink, 1);
+        cairo_set_line_width(s->cairo, (p->spine ? 2.6 : 1.8) * s->unit);
         cairo_stroke(s->cairo);
         return;
     }

@@ -15,6 +15,8 @@
 typedef struct ves_format {
     const char *name, *about;
     ves_status (*write)(ves_figure *figure, const char *path, ves_diag *diag);
+    /* The spines of the figure, a line for each patch that has one; NULL: a format without lines. */
+    ves_status (*spines)(ves_figure *figure, const char *path, ves_diag *diag);
 } ves_format;
 
 const ves_format *const *ves_formats(void); /* NULL-terminated, sorted by name */

@@ -290,23 +290,35 @@ static long caps_add(const maker *m, int *corner, bool draw)
     return pieces;
 }
 
-/* A segment of an end curve, brought forward so that the surface it bounds does not hide it. */
-static void segment_add(const maker *m, int from, int to)
+/* A straight line between two places of a row of points, brought forward. */
+static void line_add(const maker *m, double *const point[3], const int end[2], double forward, bool spine)
 {
     ves_scene *scene = m->scene;
     ves_piece *piece = &scene->piece[scene->pieces];
-    int end[2] = {from, to};
     double depth = 0, px, py;
     for (int k = 0; k < 2; k++) {
-        double x[3] = {m->p->X[0][end[k]], m->p->X[1][end[k]], m->p->X[2][end[k]]};
+        double x[3] = {point[0][end[k]], point[1][end[k]], point[2][end[k]]};
         depth += project(&scene->camera, x, &px, &py) / 2;
         if (!isfinite(px + py)) return;
         piece->x[k] = (float)px, piece->y[k] = (float)py;
     }
-    piece->corners = 2;
+    piece->corners = 2, piece->lines = 0, piece->spine = spine;
     piece->order = scene->pieces;
-    piece->depth = (float)(depth + 0.75 * m->reach);
+    piece->depth = (float)(depth + forward);
     scene->pieces++;
+}
+
+/* A segment of an end curve: the surface it bounds does not hide it. */
+static void segment_add(const maker *m, int from, int to)
+{
+    line_add(m, m->p->X, (int[]){from, to}, 0.75 * m->reach, false);
+}
+
+/* A spine lies inside its surface: it comes before everything. */
+static void spine_add(const maker *m)
+{
+    for (int i = 0; i < m->p->nu && m->p->spine[0]; i++)
+        line_add(m, m->p->spine, (int[]){i, i + 1}, 4 * m->scene->size, true);
 }
 
 /* Mean length of the lines along u (0) and around v (1). */
@@ -411,7 +423,7 @@ static long pieces_needed(ves_scene *scene, const ves_figure *figure, double cel
     for (int k = 0; k < figure->patches; k++) {
         maker m;
         maker_init(&m, scene, figure, k, cell);
-        need += (long)m.p->nu * m.p->nv * m.fine[0] * m.fine[1] + 2L * (m.p->nu + m.p->nv) +
+        need += (long)m.p->nu * m.p->nv * m.fine[0] * m.fine[1] + 2L * (m.p->nu + m.p->nv) + m.p->nu +
                 caps_add(&m, corner, false);
     }
     return need;
@@ -444,6 +456,7 @@ ves_status ves_scene_build(ves_scene *scene, const ves_figure *figure, const ves
         surface_add(&m);
         caps_add(&m, corner, true);
         curves_add(&m);
+        if (view->spines) spine_add(&m);
     }
     qsort(scene->piece, (size_t)scene->pieces, sizeof *scene->piece, compare);
     return VES_OK;

@@ -36,12 +36,13 @@ typedef struct ves_camera {
 enum { VES_LOW_U = 1, VES_HIGH_U = 2, VES_LOW_V = 4, VES_HIGH_V = 8 };
 
 /* corners 4: a piece of surface, (low u, low v), (high u, low v), (high u, high v), (low u, high v). corners
- * 2: of an end curve. */
+ * 2: of an end curve; of a spine. */
 typedef struct ves_piece {
     float x[4], y[4], depth; /* depth: towards the viewer */
     float r, g, b;
     int order;                    /* of making */
     unsigned char corners, lines; /* lines: which sides lie on the drawn mesh */
+    bool spine;
 } ves_piece;
 
 typedef struct ves_scene {

@@ -325,6 +325,30 @@ ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **out
     return status;
 }
 
+/* The spines, which a proof has no use for. */
+static ves_status spines_sample(ves_plan *plan, ves_figure *figure)
+{
+    for (int k = 0; k < figure->patches; k++) {
+        ves_figure_patch *f = &figure->patch[k];
+        double *u = ves_arena_doubles(&figure->arena, (size_t)f->rows),
+               *at = ves_arena_doubles(&figure->arena, 9 * (size_t)f->rows);
+        if (!u || !at) return VES_MEMORY;
+        for (int i = 0; i < f->rows; i++) u[i] = (double)i / f->nu;
+        ves_status status = ves_plan_spine(plan, k, f->rows, u, at);
+        if (status == VES_MEMORY) return status;
+        for (int c = 0; c < 3 && status == VES_OK; c++) f->spine[c] = at + c * f->rows;
+    }
+    return VES_OK;
+}
+
+static ves_status whole_make(ves_plan *plan, int nu, int nv, ves_figure **figure)
+{
+    VES_TRY(ves_plan_figure_make(plan, nu, nv, figure));
+    ves_status status = spines_sample(plan, *figure);
+    if (status != VES_OK) ves_figure_destroy(*figure), *figure = NULL;
+    return status;
+}
+
 static bool drawable(const ves_plan *plan, int nu, int nv)
 {
     return nu >= 0 && nu <= CELLS_MOST && (nv == 0 || (nv >= 3 && nv <= CELLS_MOST)) &&
@@ -346,7 +370,7 @@ ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_
     bool drawn =
         status >= VES_OK && status != VES_NO_ROOT && status != VES_NO_BRACKET && status != VES_NO_SCALE;
     ves_status wrong = drawn ? status : VES_OK;
-    if (drawn) status = ves_plan_figure_make(plan, nu, nv, figure);
+    if (drawn) status = whole_make(plan, nu, nv, figure);
     if (*figure && !ves_plan_figure_finite(plan, *figure, "there is no shape to show", diag)) {
         ves_figure_destroy(*figure);
         *figure = NULL;

@@ -28,7 +28,7 @@ void ves_figure_scale(ves_figure *figure, double factor, const char *unit)
     for (int k = 0; k < figure->patches; k++) {
         ves_figure_patch *p = &figure->patch[k];
         int count = p->rows * p->columns;
-        for (int c = 0; c < 3; c++) times(p->X[c], count, factor);
+        for (int c = 0; c < 3; c++) times(p->X[c], count, factor), times(p->spine[c], p->rows, factor);
         times(p->H, count, 1 / factor);
         times(p->k1, count, 1 / factor);
         times(p->k2, count, 1 / factor);

@@ -20,6 +20,7 @@ typedef struct ves_figure_patch {
     double
         *normal[3]; /* unit, outward; zero where the surface has none (poles are filled with their limit) */
     double *H, *K, *k1, *k2; /* 1/m, 1/m^2; k1 >= k2; H = +1/R on a sphere */
+    double *spine[3];        /* [rows] m: the mean over v of each row, of a PDE patch; NULL: of no other */
     double side;             /* +1: Xu x Xv points outward, -1: inward */
     int edge[2];  /* which seam the ends u = 0 and u = 1 lie on; ends with the same number share a curve; -1:
                      free */

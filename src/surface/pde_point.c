@@ -30,10 +30,15 @@ typedef struct chunk {
     double *spine;
 } chunk;
 
+static void places_fill(int count, const double *u, double place[CHUNK])
+{
+    for (int i = 0; i < CHUNK; i++) place[i] = u[i < count ? i : count - 1];
+}
+
 static void chunk_make(const pde *p, int count, const double *u, double *room, chunk *c)
 {
     _Alignas(64) double place[CHUNK];
-    for (int i = 0; i < CHUNK; i++) place[i] = u[i < count ? i : count - 1];
+    places_fill(count, u, place);
     memset(c, 0, sizeof *c);
     double *scratch = room + p->def->operators * table_size(p);
     c->spine = scratch;
@@ -47,24 +52,29 @@ static void chunk_make(const pde *p, int count, const double *u, double *room, c
     }
 }
 
-static double spine_value(const pde *p, const chunk *c, int d, int i, int k)
+static double spine_value(const pde *p, const double *basis, int d, int i, int k)
 {
     double sum = 0;
     for (int q = 0; q < p->spine.terms; q++)
-        sum += c->spine[(d * p->spine.terms + q) * CHUNK + i] * p->spine.point[3 * q + k];
+        sum += basis[(d * p->spine.terms + q) * CHUNK + i] * p->spine.point[3 * q + k];
     return sum;
 }
 
-/* sum_j W[d][j] F_j for one coefficient of mode n. */
-static double mode_value(const pde *p, const chunk *c, int n, int part, int d, int i, int k)
+/* sum_j W[d][j] F_j for coefficient `part` of the mode that the weights are of. */
+static double solved_value(const pde *p, const double *weight, int part, int d, int i, int k)
 {
     int K = p->conditions, width = stride(p->band);
-    const pde_tables *t = &c->tables[pde_operator(p, k)];
-    const double *w = n <= p->modes ? t->table + (size_t)(n * 3 * K * CHUNK) : t->rest;
-    if (n == 0 && p->spine.terms) return spine_value(p, c, d, i, k);
     double sum = 0;
-    for (int j = 0; j < K; j++) sum += w[(d * K + j) * CHUNK + i] * p->data[(j * 3 + k) * width + part];
+    for (int j = 0; j < K; j++) sum += weight[(d * K + j) * CHUNK + i] * p->data[(j * 3 + k) * width + part];
     return sum;
+}
+
+static double mode_value(const pde *p, const chunk *c, int n, int part, int d, int i, int k)
+{
+    const pde_tables *t = &c->tables[pde_operator(p, k)];
+    if (n == 0 && p->spine.terms) return spine_value(p, c->spine, d, i, k);
+    return solved_value(p, n <= p->modes ? t->table + (size_t)(n * 3 * p->conditions * CHUNK) : t->rest, part,
+                        d, i, k);
 }
 
 static void point_sum(const pde *p, const chunk *c, int i, double v, double out[VES_FIELDS][3])
@@ -102,19 +112,28 @@ void ves_pde_point(const ves_patch *patch, const ves_bound *bound, int count, co
     }
 }
 
+/* Mode 0 alone, which is the same for every operator. */
 bool ves_pde_spine_points(const ves_patch *patch, const ves_bound *bound, int count, const double *u,
                           double *out, double *room)
 {
     (void)bound;
     const pde *p = patch->state;
+    bool given = p->spine.terms > 0;
+    double *table = room, *scratch = room + 3 * (given ? p->spine.terms : p->conditions) * CHUNK;
     for (int first = 0; first < count; first += CHUNK) {
         int n = count - first < CHUNK ? count - first : CHUNK;
-        chunk c;
-        chunk_make(p, n, u + first, room, &c);
+        _Alignas(64) double place[CHUNK];
+        places_fill(n, u + first, place);
+        if (given)
+            ves_pde_spine_basis(p, CHUNK, place, table);
+        else
+            ves_weights_mode(&p->layout, &p->op[0], 0, CHUNK, place,
+                             &(ves_table){.weight = table, .room = scratch});
         for (int i = 0; i < n; i++)
             for (int d = 0; d < 3; d++)
                 for (int k = 0; k < 3; k++)
-                    out[(d * 3 + k) * count + first + i] = mode_value(p, &c, 0, 0, d, i, k);
+                    out[(d * 3 + k) * count + first + i] =
+                        given ? spine_value(p, table, d, i, k) : solved_value(p, table, 0, d, i, k);
     }
     return true;
 }

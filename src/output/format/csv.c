@@ -54,5 +54,25 @@ static ves_status write(ves_figure *figure, const char *path, ves_diag *diag)
     return ves_file_end(&file, VES_OK, diag);
 }
 
-const ves_format ves_format_csv = {
-    .name = "csv", .about = "nodes with normals and curvatures, for spreadsheets", .write = write};
+static ves_status spines(ves_figure *figure, const char *path, ves_diag *diag)
+{
+    ves_file file;
+    VES_TRY(ves_file_begin(&file, path, "csv", diag));
+    fputs("patch,i,u,x,y,z\n", file.out);
+    for (int k = 0; k < figure->patches; k++) {
+        const ves_figure_patch *p = &figure->patch[k];
+        for (int i = 0; i < p->rows && p->spine[0]; i++) {
+            text(file.out, p->name ? p->name : "");
+            fprintf(file.out, ",%d", i);
+            number(file.out, (double)i / p->nu);
+            for (int c = 0; c < 3; c++) number(file.out, p->spine[c][i]);
+            putc('\n', file.out);
+        }
+    }
+    return ves_file_end(&file, VES_OK, diag);
+}
+
+const ves_format ves_format_csv = {.name = "csv",
+                                   .about = "nodes with normals and curvatures, for spreadsheets",
+                                   .write = write,
+                                   .spines = spines};

@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "base/diag.h"
+#include "base/text.h"
 #include "output/file.h"
 #include "output/output.h"
 
@@ -106,6 +107,78 @@ static ves_status write(ves_figure *figure, const char *path, ves_diag *diag)
     return ves_file_end(&file, VES_OK, diag);
 }
 
+/* --- spines: one polyline a patch --- */
+
+/* One number for each place of each spine. */
+typedef double at_place(const ves_figure_patch *p, int patch, int i, int component);
+
+static double place_x(const ves_figure_patch *p, int patch, int i, int component)
+{
+    (void)patch;
+    return p->spine[component][i];
+}
+
+static double place_u(const ves_figure_patch *p, int patch, int i, int component)
+{
+    (void)patch, (void)component;
+    return (double)i / p->nu;
+}
+
+static double place_patch(const ves_figure_patch *p, int patch, int i, int component)
+{
+    (void)p, (void)i, (void)component;
+    return patch;
+}
+
+static void places_write(FILE *out, const ves_figure *figure, const char *kind, int components, at_place *at)
+{
+    char number[32];
+    fprintf(out, "        <DataArray %s NumberOfComponents=\"%d\" format=\"ascii\">\n", kind, components);
+    for (int k = 0; k < figure->patches; k++)
+        for (int i = 0; i < figure->patch[k].rows && figure->patch[k].spine[0]; i++)
+            for (int c = 0; c < components; c++) {
+                ves_text_shortest(at(&figure->patch[k], k, i, c), number);
+                fprintf(out, "%s%c", number, c + 1 < components ? ' ' : '\n');
+            }
+    fputs("        </DataArray>\n", out);
+}
+
+static void lines_write(FILE *out, const ves_figure *figure, int points)
+{
+    int end = 0;
+    fputs("        <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n", out);
+    for (int k = 0; k < points; k++) fprintf(out, "%d\n", k);
+    fputs("        </DataArray>\n        <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n",
+          out);
+    for (int k = 0; k < figure->patches; k++)
+        if (figure->patch[k].spine[0]) fprintf(out, "%d\n", end += figure->patch[k].rows);
+    fputs("        </DataArray>\n", out);
+}
+
+static ves_status spines(ves_figure *figure, const char *path, ves_diag *diag)
+{
+    ves_file file;
+    int points = 0, lines = 0;
+    VES_TRY(ves_file_begin(&file, path, "vtp", diag));
+    for (int k = 0; k < figure->patches; k++)
+        if (figure->patch[k].spine[0]) points += figure->patch[k].rows, lines++;
+    fputs("<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\">\n  <PolyData>\n", file.out);
+    names_write(file.out, figure);
+    fprintf(file.out,
+            "    <Piece NumberOfPoints=\"%d\" NumberOfVerts=\"0\" NumberOfLines=\"%d\" "
+            "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n      <PointData Scalars=\"u\">\n",
+            points, lines);
+    places_write(file.out, figure, "type=\"Float64\" Name=\"u\"", 1, place_u);
+    places_write(file.out, figure, "type=\"Int32\" Name=\"patch\"", 1, place_patch);
+    fputs("      </PointData>\n      <Points>\n", file.out);
+    places_write(file.out, figure, "type=\"Float64\" Name=\"Points\"", 3, place_x);
+    fputs("      </Points>\n      <Lines>\n", file.out);
+    lines_write(file.out, figure, points);
+    fputs("      </Lines>\n    </Piece>\n  </PolyData>\n</VTKFile>\n", file.out);
+    return ves_file_end(&file, VES_OK, diag);
+}
+
 const ves_format ves_format_vtp = {.name = "vtp",
                                    .about = "triangles with normals and curvatures, for ParaView and PyVista",
-                                   .write = write};
+                                   .write = write,
+                                   .spines = spines};
