@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/vector.h"
 #include "bed.h"
 #include "plan/inside.h"
 
@@ -157,6 +158,62 @@ Test(joint, domes_are_as_smooth_as_they_are_made)
     ves_joint crease = domes(p, p, -2, "0.3");
     expect_class(&crease, VES_JOINT_C0, "tilted");
     cr_expect(fabs(crease.angle - atan(0.3)) < 1e-13, "%.17g", crease.angle);
+}
+
+/* Order 6 on both sides of a wavy curve p, with X_u = f, X_uu = g below. Above, the same surface as another u
+ * sees it: X(s u, v + t u) has X_u = s f + t p', X_uu = s^2 g + 2 s t f' + t^2 p''. Whatever s and t, that is G2;
+ * with s = 1, t = 0 it is C2. A change of g is a jump of the curvature across of n.dg / |f across p'|^2. */
+static ves_joint waves(double s, double t, double off)
+{
+    char text[3000];
+    snprintf(
+        text, sizeof text,
+        "vesica: 1\nparameters: {s: %.17g, t: %.17g, off: %.17g}\ncurves:\n"
+        "  p: {formula: [\"1.2*cos(v) + 0.1*cos(3*v)\", \"sin(v)\", \"0.2*cos(2*v)\"]}\n"
+        "  p1: {formula: [\"-1.2*sin(v) - 0.3*sin(3*v)\", \"cos(v)\", \"-0.4*sin(2*v)\"]}\n"
+        "  p2: {formula: [\"-1.2*cos(v) - 0.9*cos(3*v)\", \"-sin(v)\", \"-0.8*cos(2*v)\"]}\n"
+        "  f: {formula: [\"0.3*cos(v)\", \"0.2*sin(v)\", \"1 + 0.1*sin(2*v)\"]}\n"
+        "  f1: {formula: [\"-0.3*sin(v)\", \"0.2*cos(v)\", \"0.2*cos(2*v)\"]}\n"
+        "  g: {formula: [\"-0.5*cos(v)\", \"0.1 - 0.4*sin(v)\", \"0.3*cos(v)\"]}\n"
+        "  slope: {combine: [[s, f], [t, p1]]}\n"
+        "  bend: {combine: [[s^2, g], [2*s*t, f1], [t^2, p2], [off, p2]]}\n"
+        "  low: {circle: {radius: 1, centre: [0, 0, -2]}}\n  high: {circle: {radius: 1, centre: [0, 0, "
+        "3]}}\n  up: {point: [0, 0, 1]}\npatches:\n"
+        "  a: {operator: {power: 3, a: 0.8}, conditions: [{u: 0, position: low}, {u: 0, derivative: 1, "
+        "field: up}, {u: 0, derivative: 2, field: g}, {u: 1, position: p}, {u: 1, derivative: 1, field: "
+        "f}, {u: 1, derivative: 2, field: g}]}\n"
+        "  b: {operator: {power: 3, a: 1.1}, conditions: [{u: 0, position: p}, {u: 0, derivative: 1, "
+        "field: slope}, {u: 0, derivative: 2, field: bend}, {u: 1, position: high}, {u: 1, derivative: 1, "
+        "field: up}, {u: 1, derivative: 2, field: g}]}\n"
+        "validity: {jacobian: any}\nexpect: [area > 0]\n",
+        s, t, off);
+    return only_joint(text);
+}
+
+Test(joint, curvature_does_not_depend_on_the_parameters)
+{
+    ves_joint same = waves(1, 0, 0), faster = waves(1.7, 0, 0), sheared = waves(1.7, 0.4, 0),
+              bent = waves(1, 0, 0.3);
+    expect_class(&same, VES_JOINT_C2, "same");
+    expect_class(&faster, VES_JOINT_G2, "faster");
+    expect_class(&sheared, VES_JOINT_G2, "sheared");
+    cr_expect(fabs(faster.slope_jump - 0.7 / 1.7) < 1e-12, "%.17g", faster.slope_jump);
+    /* rounding of second derivatives of size 10 */
+    cr_expect(sheared.angle < 1e-12 && sheared.curvature_jump < 1e-11, "%.3g %.3g", sheared.angle,
+              sheared.curvature_jump);
+    expect_class(&bent, VES_JOINT_C1, "bent");
+    double most = 0;
+    for (int j = 0; j < 256; j++) { /* the places that are looked at */
+        double v = 2 * PI * j / 256, x[3], out = 0;
+        const double f[] = {0.3 * cos(v), 0.2 * sin(v), 1 + 0.1 * sin(2 * v)},
+                     d[] = {-1.2 * sin(v) - 0.3 * sin(3 * v), cos(v), -0.4 * sin(2 * v)},
+                     dd[] = {-1.2 * cos(v) - 0.9 * cos(3 * v), -sin(v), -0.8 * cos(2 * v)};
+        ves_cross(f, d, x);
+        for (int c = 0; c < 3; c++) out += 0.3 * dd[c] * x[c];
+        double n = sqrt(ves_dot(x, x));
+        most = fmax(most, fabs(out / n) * ves_dot(d, d) / (n * n));
+    }
+    cr_expect(fabs(bent.curvature_jump - most) < 1e-11, "%.17g %.17g", bent.curvature_jump, most);
 }
 
 /* A slope of 0 leaves no tangent plane: nothing is known of the normal there. */

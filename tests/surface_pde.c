@@ -238,6 +238,7 @@ static void gradient(rig *r, double *out)
     ves_tile_planes *adjoint = ves_arena_take(&r->arena, 1, sizeof *adjoint);
     double *number = ves_arena_doubles(&r->arena, (size_t)r->b.problem->block);
     memset(out, 0, sizeof *out * VARIABLES);
+    memset(number, 0, sizeof *number * (size_t)r->b.problem->block);
     bind(r, r->x, true);
     ves_patch_clear(r->patch);
     ves_curves_clear(plan->curves);
