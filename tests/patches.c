@@ -294,3 +294,96 @@ Test(patches, gradients_go_through_spines_raised_orders_and_omega)
         bed_clear(&b);
     }
 }
+
+/* --- what conditions inside do --- */
+
+/* Eight wavy sections of a tube at u[i]. */
+static bed tube(const double u[8], const char *rest)
+{
+    char text[8000];
+    int at = snprintf(text, sizeof text, "vesica: 1\ncurves:\n");
+    for (int i = 0; i < 8; i++)
+        at += snprintf(text + at, sizeof text - (size_t)at,
+                       "  c%d: {bspline: {points: [[1, 0, %.17g], [0, %.17g, %.17g], [-1, 0, %.17g], [0, -1, "
+                       "%.17g]]}}\n",
+                       i, u[i], 1 + 0.2 * sin(5 * u[i]), u[i], u[i], u[i]);
+    at += snprintf(text + at, sizeof text - (size_t)at,
+                   "patches:\n  w:\n    operator: {power: 4}\n    conditions:\n");
+    for (int i = 0; i < 8; i++)
+        at += snprintf(text + at, sizeof text - (size_t)at, "      - {u: %.17g, position: c%d}\n", u[i], i);
+    snprintf(text + at, sizeof text - (size_t)at, "%s\n", rest);
+    return bed_with(text, NULL, 8, 8);
+}
+
+static void expect_warning(const bed *b, const char *want)
+{
+    char text[2000] = "";
+    cr_expect_eq(ves_diag_count(b->diag), want != NULL);
+    if (ves_diag_count(b->diag)) ves_diag_text(b->diag, 0, text, sizeof text);
+    cr_expect(want == NULL || strstr(text, want) != NULL, "got %s\nwant %s", text, want);
+}
+
+/* The amplification of equispaced positions of order 8 and of Chebyshev's, by 60-digit arithmetic: 6.7 and 2.2 at
+ * lam = 0, 230 and 9 at lam = 20, 9e3 and 260 at lam = 30. */
+Test(patches, conditions_inside_tell_what_they_amplify)
+{
+    double even[8], node[8];
+    for (int i = 0; i < 8; i++) even[i] = i / 7., node[i] = (1 - cos(acos(-1) * i / 7)) / 2;
+    node[7] = 1;
+    bed b = tube(even, "");
+    ves_patch_facts f = ves_plan_patch(b.plan, 0);
+    cr_expect(f.order == 8 && f.inside && f.modes == 24 && f.omega == 25, "%d %d %g", f.order, f.modes,
+              f.omega);
+    cr_expect(f.amplification[0] > 6.6 && f.amplification[0] < 7, "%g", f.amplification[0]);
+    cr_expect(f.amplification[1] > 230 && f.amplification[1] < 1000, "%g", f.amplification[1]);
+    cr_expect(f.condition[0] > 1 && f.condition[0] < 1000 && f.condition[1] > 1);
+    expect_warning(&b, NULL);
+    bed_clear(&b);
+    b = tube(even, "    remainder: {modes: 40}");
+    cr_expect(ves_plan_patch(b.plan, 0).modes == 40);
+    expect_warning(
+        &b, "patch \"w\": its conditions make of mode 25 of their curves 1.3e+03 times as much, of mode 40 "
+            "4.8e+05 times: digits are lost, and fine detail swamps the surface; solve fewer modes, "
+            "remainder: {modes: 24}, or place them nearer to the ends, as Chebyshev's nodes are, u = (1 - "
+            "cos(pi*i/7))/2 for i = 0 to 7");
+    bed_clear(&b);
+    b = tube(node, "");
+    f = ves_plan_patch(b.plan, 0);
+    cr_expect(f.amplification[0] > 2.1 && f.amplification[0] < 2.3 && f.modes == 33, "%g, %d",
+              f.amplification[0], f.modes);
+    bed_clear(&b);
+    b = tube(node, "    remainder: {modes: 34, omega: 30}");
+    expect_warning(
+        &b, "its conditions make of mode 34 of their curves 1.1e+03 times as much: digits are lost, and fine "
+            "detail swamps the surface; solve fewer modes, remainder: {modes: 33}, or place them nearer to "
+            "the ends\n");
+    cr_expect(ves_plan_patch(b.plan, 0).omega == 30);
+    bed_clear(&b);
+}
+
+Test(patches, facts_of_patches_without_conditions_inside)
+{
+    bed b = bed_with(VASE("    raise: [{u: 0, derivative: 2}, {u: 1, derivative: 2}]"), NULL, 8, 8);
+    ves_patch_facts f = ves_plan_patch(b.plan, 0);
+    cr_expect(f.order == 6 && f.inside == false && f.amplification[0] == 0 && f.modes == 40, "%d", f.modes);
+    cr_expect(f.omega == 0.8 * 41, "%g", f.omega);
+    bed_clear(&b);
+    b = bed_with("vesica: 1\npatches: {w: {surface: {formula: [u, v, \"u*v\"]}, periodic: false}}\n", NULL, 8,
+                 8);
+    cr_expect(ves_plan_patch(b.plan, 0).order == 0);
+    bed_clear(&b);
+}
+
+/* X_u at 1/2 - d and 1/2 + d with X at the ends: singular for the mean at d = 1/(2 sqrt 3), docs/errata.md. */
+Test(patches, conditions_that_nearly_leave_a_mode_free_are_told)
+{
+    bed b = bed_with(
+        "vesica: 1\ncurves: {p: {circle: {radius: 1}}, q: {circle: {radius: 1, centre: [0, 0, 1]}}, f: "
+        "{point: [0, 0, 1]}}\npatches: {w: {operator: {power: 2}, conditions: [{u: 0, position: p}, {u: 1, "
+        "position: q}, {u: 0.2113, derivative: 1, field: f}, {u: 0.7887, derivative: 1, field: f}]}}\n",
+        NULL, 8, 8);
+    expect_warning(
+        &b, "patch \"w\": its conditions make of mode 0 of their curves 2.2e+03 times as much: digits are "
+            "lost, and fine detail swamps the surface; move them, or give others");
+    bed_clear(&b);
+}

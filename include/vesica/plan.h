@@ -115,11 +115,17 @@ void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag 
  * mine. */
 ves_search_problem ves_plan_search(ves_plan **plan, int workers);
 
-/* What a PDE patch is made of; zero for other kinds. tail: at the design last evaluated. */
+/* What a PDE patch is made of; zero for other kinds. At the design last evaluated. */
 typedef struct ves_patch_facts {
-    int band;    /* modes in the data of its conditions */
-    int modes;   /* of these solved one by one */
-    double tail; /* share of the data beyond them: root of the sum of squares, of the condition with most */
+    int order;    /* of its equation */
+    int band;     /* modes in the data of its conditions */
+    int modes;    /* of these solved one by one */
+    double tail;  /* share of the data beyond them: root of the sum of squares, of the condition with most */
+    double omega; /* lam of all modes beyond; NAN: there are none, or coefficients have no single lam */
+    bool
+        inside; /* conditions stand between the ends: then, of mode 0 and of the highest mode that is solved, */
+    double amplification[2]; /* the size of the surface that positions of size 1 may make, */
+    double condition[2];     /* and an estimate of the condition number of the conditions */
 } ves_patch_facts;
 ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch);
 

@@ -58,16 +58,29 @@ static ves_status look(app *a, checked *c)
     return status;
 }
 
-static const char *kind_of(const ves_patch_def *p)
+/* "PDE, order 4 raised to 6" */
+static void kind_cell(app_table *t, const ves_patch_def *p)
 {
-    if (p->kind == VES_PATCH_FORMULA) return "formula";
-    if (p->kind == VES_PATCH_POINTS) return "points";
-    static const char *const order[] = {"PDE, order 2",  "PDE, order 4",  "PDE, order 6",  "PDE, order 8",
-                                        "PDE, order 10", "PDE, order 12", "PDE, order 14", "PDE, order 16",
-                                        "PDE, order 18", "PDE, order 20", "PDE, order 22", "PDE, order 24",
-                                        "PDE, order 26", "PDE, order 28", "PDE, order 30", "PDE, order 32",
-                                        "PDE, order 34", "PDE, order 36", "PDE, order 38", "PDE, order 40"};
-    return order[p->power - 1];
+    if (p->kind != VES_PATCH_PDE) {
+        app_table_cell(t, "%s", p->kind == VES_PATCH_FORMULA ? "formula" : "points");
+        return;
+    }
+    char raised[32] = "";
+    if (p->lower) snprintf(raised, sizeof raised, " raised to %d", 2 * p->power);
+    app_table_cell(t, "PDE, order %d%s%s%s%s", 2 * (p->lower ? p->lower : p->power), raised,
+                   p->general ? ", coefficients" : "", p->operators > 1 ? " for each of x, y, z" : "",
+                   p->spine ? ", spine given" : "");
+}
+
+static void modes_cell(app_table *t, const ves_patch_facts *f)
+{
+    char at[40] = "";
+    if (!isnan(f->omega)) snprintf(at, sizeof at, ", at omega = %.4g,", f->omega);
+    if (f->modes == f->band)
+        app_table_cell(t, "%d Fourier %s, all solved", f->band, f->band == 1 ? "mode" : "modes");
+    else
+        app_table_cell(t, "%d of %d Fourier modes solved; the remainder%s carries %.1e of the data", f->modes,
+                       f->band, at, f->tail);
 }
 
 static void patches(const checked *c)
@@ -78,17 +91,40 @@ static void patches(const checked *c)
     app_table_cell(&t, "made by");
     app_table_end(&t);
     for (int k = 0; k < p->patches; k++) {
-        const ves_patch_facts *f = &c->facts[k];
         app_table_cell(&t, "%s", p->patch[k].name);
-        app_table_cell(&t, "%s", kind_of(&p->patch[k]));
-        if (p->patch[k].kind != VES_PATCH_PDE)
-            app_table_end(&t);
-        else if (f->modes == f->band)
-            app_table_cell(&t, "%d Fourier %s, all solved", f->band, f->band == 1 ? "mode" : "modes");
+        kind_cell(&t, &p->patch[k]);
+        if (p->patch[k].kind == VES_PATCH_PDE)
+            modes_cell(&t, &c->facts[k]);
         else
-            app_table_cell(&t, "%d of %d Fourier modes solved; the remainder carries %.1e of the data",
-                           f->modes, f->band, f->tail);
+            app_table_end(&t);
     }
+    app_table_print(&t, stdout);
+    fputc('\n', stdout);
+}
+
+/* Of patches with conditions inside: what these make of their data. */
+static void amplifications(const checked *c)
+{
+    const ves_problem *p = c->run->problem;
+    app_table t = {.align = "lrrr"};
+    bool any = false;
+    for (int k = 0; k < p->patches; k++) {
+        const ves_patch_facts *f = &c->facts[k];
+        for (int i = 0; i < 2 && f->inside && (i == 0 || f->modes > 0); i++) {
+            if (!any) {
+                app_table_cell(&t, "conditions inside");
+                app_table_cell(&t, "mode");
+                app_table_cell(&t, "amplified");
+                app_table_cell(&t, "condition number");
+            }
+            any = true;
+            app_table_cell(&t, "%s", i ? "" : p->patch[k].name);
+            app_table_cell(&t, "%d", i ? f->modes : 0);
+            app_table_cell(&t, "%.3g", f->amplification[i]);
+            app_table_cell(&t, "%.1e", f->condition[i]);
+        }
+    }
+    if (!any) return;
     app_table_print(&t, stdout);
     fputc('\n', stdout);
 }
@@ -134,6 +170,23 @@ static void costs(const checked *c)
     fputc('\n', stdout);
 }
 
+static void json_pair(ves_json *json, const char *name, const double value[2])
+{
+    ves_json_array(json, name);
+    for (int k = 0; k < 2; k++) ves_json_number(json, NULL, value[k]);
+    ves_json_end(json, ']');
+}
+
+static void json_patch(ves_json *json, const ves_patch_facts *f)
+{
+    if (!f->order) return;
+    ves_json_integer(json, "order", f->order);
+    ves_json_number(json, "omega", f->omega);
+    if (!f->inside) return;
+    json_pair(json, "amplification", f->amplification); /* of mode 0 and of the highest that is solved */
+    json_pair(json, "condition", f->condition);
+}
+
 static void json_print(const checked *c)
 {
     ves_json json = {.out = stdout};
@@ -153,6 +206,7 @@ static void json_print(const checked *c)
         ves_json_integer(&json, "band", c->facts[k].band);
         ves_json_integer(&json, "modes", c->facts[k].modes);
         ves_json_number(&json, "tail", c->facts[k].tail);
+        json_patch(&json, &c->facts[k]);
         ves_json_end(&json, '}');
     }
     ves_json_end(&json, '}');
@@ -174,6 +228,7 @@ static int report(app *a, checked *c)
         heading(c);
         app_screen_variables(c->run, stdout);
         patches(c);
+        amplifications(c);
         printf("  start design\n\n");
         app_screen_design(c->run->problem, &c->run->best, stdout);
         app_screen_joints(c->run, stdout);

@@ -191,8 +191,10 @@ ves_status ves_sheet_look(const ves_plan *plan, int patch, plan_sheet *found);
 bool ves_sheet_one_sided(const plan_sheet *sheet);
 ves_status ves_plan_sheets(ves_plan *plan, ves_diag *diag);
 
-/* conditions.c: refuses conditions that determine no surface, warns of those that amplify */
+/* conditions.c: refuses conditions that determine no surface at the start, warns of those that amplify; lam of
+ * the remainder, NAN where there is none or it is not one number. */
 ves_status ves_plan_conditions(const ves_plan *plan, int patch, ves_diag *diag);
+double ves_plan_omega(const ves_plan *plan, int patch);
 
 /* elliptic.c: refuses a patch whose operator is not elliptic at the start; and tells, "what: ...", of one whose
  * is not at the design that is bound (false: all are). */

@@ -347,12 +347,31 @@ static bool there(const ves_plan *plan, int patch)
     return patch >= 0 && patch < plan->problem->patches;
 }
 
+static bool stands_inside(const ves_patch_def *d)
+{
+    for (int k = 0; k < d->conditions; k++)
+        if (d->condition[k].u > 0 && d->condition[k].u < 1) return true;
+    return false;
+}
+
 ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch)
 {
-    if (!there(plan, patch)) return (ves_patch_facts){0};
+    if (!there(plan, patch) || plan->problem->patch[patch].kind != VES_PATCH_PDE) return (ves_patch_facts){0};
     const ves_patch *p = plan->patch[patch];
-    return (ves_patch_facts){
-        .band = ves_patch_band(p), .modes = ves_patch_modes(p), .tail = ves_patch_tail(p)};
+    const ves_patch_def *d = &plan->problem->patch[patch];
+    ves_patch_facts facts = {.order = 2 * d->power,
+                             .band = ves_patch_band(p),
+                             .modes = ves_patch_modes(p),
+                             .tail = ves_patch_tail(p),
+                             .omega = ves_plan_omega(plan, patch),
+                             .inside = stands_inside(d)};
+    for (int k = 0; k < 2 && facts.inside; k++) {
+        ves_amplification found;
+        ves_patch_amplification(p, k ? facts.modes : 0, &found);
+        facts.amplification[k] = found.lebesgue;
+        facts.condition[k] = found.condition;
+    }
+    return facts;
 }
 
 void ves_plan_lattice(int along, int around, double *u, double *v)
