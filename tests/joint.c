@@ -216,6 +216,42 @@ Test(joint, curvature_does_not_depend_on_the_parameters)
     cr_expect(fabs(bent.curvature_jump - most) < 1e-11, "%.17g %.17g", bent.curvature_jump, most);
 }
 
+/* `joins:` make what they say, and both ways round: also where two ends at u = 1 meet. */
+Test(joint, joins_make_what_they_say)
+{
+    static const struct {
+        const char *scale, *bend;
+        ves_joint_class want;
+    } join[] = {{"0.8", "", VES_JOINT_C1},
+                {"[0.8, 1.3]", "", VES_JOINT_G1},
+                {"0.8", ", bend: g", VES_JOINT_C2},
+                {"[0.8, 1.3]", ", bend: g", VES_JOINT_G2}};
+    for (int k = 0; k < 8; k++) {
+        char text[2000];
+        bool bends = *join[k / 2].bend, back = k % 2; /* the upper patch from above */
+        const char *more = bends ? ", {u: 0, derivative: 2, field: g}" : "",
+                   *upper = bends ? ", {u: 1, derivative: 2, field: g}" : "";
+        snprintf(
+            text, sizeof text,
+            "vesica: 1\ncurves:\n  low: {circle: {radius: 1, centre: [0, 0, -2]}}\n  high: {circle: "
+            "{radius: 1, centre: [0, 0, 3]}}\n  up: {point: [0, 0, 1]}\n  p: {formula: [\"1.2*cos(v) + "
+            "0.1*cos(3*v)\", \"sin(v)\", \"0.2*cos(2*v)\"]}\n  f: {formula: [\"0.3*cos(v)\", "
+            "\"0.2*sin(v)\", \"1 + 0.1*sin(2*v)\"]}\n  g: {formula: [\"-0.5*cos(v)\", \"0.1 - "
+            "0.4*sin(v)\", \"0.3*cos(v)\"]}\npatches:\n"
+            "  a: {operator: {power: %d, a: 0.8}, conditions: [{u: 0, position: low}, {u: 0, derivative: "
+            "1, field: up}, {u: 1, position: p}%s]}\n"
+            "  b: {operator: {power: %d, a: 1.1}, conditions: [{u: %d, position: p}, {u: %d, position: "
+            "high}, {u: %d, derivative: 1, field: up, scale: %d}%s]}\n"
+            "joins: [{ends: [a.u1, b.u%d], tangent: f, scale: %s%s}]\n"
+            "validity: {jacobian: any}\nexpect: [area > 0]\n",
+            bends ? 3 : 2, more, bends ? 3 : 2, back, 1 - back, 1 - back, back ? -1 : 1, back ? more : upper,
+            back, join[k / 2].scale, join[k / 2].bend);
+        ves_joint j = only_joint(text);
+        expect_class(&j, join[k / 2].want, join[k / 2].scale);
+        cr_expect_eq(j.end[1], back);
+    }
+}
+
 /* A slope of 0 leaves no tangent plane: nothing is known of the normal there. */
 Test(joint, without_a_tangent_plane_it_is_not_smooth)
 {
@@ -283,6 +319,41 @@ Test(joint, a_patch_joins_itself)
                    "up}]}\nvalidity: {jacobian: any}\nexpect: [area > 0]\n");
     expect_class(&j, VES_JOINT_C1_G2, "itself"); /* z'' jumps from 6 to -6 */
     cr_expect(fabs(j.second_jump - 2) < 1e-13, "%.17g", j.second_jump);
+}
+
+/* A torus by formula goes on at its ends, whichever way these are turned against each other; a Klein bottle's
+ * figure of eight too, whose ends run against each other. One whose tube bulges on its way has a crease
+ * there. */
+Test(joint, surfaces_meet_themselves)
+{
+    static const char *const text[] = {
+        "[\"(2 + 0.7*cos(v))*cos(2*pi*u)\", \"(2 + 0.7*cos(v))*sin(2*pi*u)\", \"0.7*sin(v)\"]",
+        "[\"(2 + 0.7*cos(v + 1.234*u))*cos(2*pi*u)\", \"(2 + 0.7*cos(v + 1.234*u))*sin(2*pi*u)\", "
+        "\"0.7*sin(v + 1.234*u)\"]",
+        "[\"(3 + cos(pi*u)*sin(v) - sin(pi*u)*sin(2*v))*cos(2*pi*u)\", \"(3 + cos(pi*u)*sin(v) - "
+        "sin(pi*u)*sin(2*v))*sin(2*pi*u)\", \"sin(pi*u)*sin(v) + cos(pi*u)*sin(2*v)\"]",
+        "[\"(2 + (0.7 + u*(1 - u))*cos(v))*cos(2*pi*u)\", \"(2 + (0.7 + u*(1 - u))*cos(v))*sin(2*pi*u)\", "
+        "\"(0.7 + u*(1 - u))*sin(v)\"]"};
+    for (int k = 0; k < 4; k++) {
+        char file[1000];
+        snprintf(file, sizeof file,
+                 "vesica: 1\npatches: {s: {surface: {formula: %s}}}\nvalidity: {jacobian: any, "
+                 "self_intersection: never}\nexpect: [area > 0]\n",
+                 text[k]);
+        ves_joint j = only_joint(file);
+        cr_expect(j.patch[0] == 0 && j.patch[1] == 0 && j.end[0] == 1 && j.end[1] == 0);
+        cr_expect(j.gap < 1e-12, "surface %d: %.3g", k,
+                  j.gap); /* the turn is found to rounding, as an angle */
+        if (k == 0) expect_class(&j, VES_JOINT_C2, "torus");
+        if (k == 1) expect_class(&j, VES_JOINT_C2, "turned torus");
+        if (k == 2) expect_class(&j, VES_JOINT_C2, "Klein bottle");
+        if (k ==
+            3) { /* the tube leaves at slope -1 and enters at +1, by u; along the inner side u is slowest */
+            expect_class(&j, VES_JOINT_C0, "bulge");
+            double want = 2 * atan(1 / (2 * PI * 1.3));
+            cr_expect(fabs(j.angle - want) < 1e-12, "%.17g %.17g", j.angle, want);
+        }
+    }
 }
 
 /* Points and free ends join nothing. */

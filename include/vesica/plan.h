@@ -140,8 +140,8 @@ ves_status ves_plan_points(ves_plan *plan, int patch, int count, const double *u
  * out[(d * 3 + c) * count + k]. VES_ABSENT: that patch has none; VES_MEMORY; VES_RANGE: no such patch. */
 ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u, double *out);
 
-/* Joints: where two ends of PDE patches lie on one curve. The two surfaces share that curve and its v, so all
- * derivatives along it agree; what may jump is what leads across. Let X_w be the derivative along u in the
+/* Joints: where two ends of PDE patches lie on one curve, or the ends of a patch or sheet that is closed along v
+ * lie on each other. The two surfaces share that curve and its v, so all derivatives along it agree; what may jump is what leads across. Let X_w be the derivative along u in the
  * direction that leaves the one patch and enters the other (X_u or -X_u, by the ends that meet), and the
  * curvature that of the normal section conormal to the curve, each side with the normal X_w x X_v. Then
  *     C0  both have the same points
@@ -153,8 +153,7 @@ ves_status ves_plan_spine(ves_plan *plan, int patch, int count, const double *u,
  * C1 says nothing of G2, nor G2 of C1 (two patches of unlike length have unlike X_w, however smooth).
  *
  * Of three or more ends on one curve every two are a joint: which two of them go on into each other, and at
- * what angle the third stands, is then seen. Ends that are points, caps, and sheets (where one meets itself,
- * too) are none.
+ * what angle the third stands, is then seen. Ends that are points, and caps, are none.
  *
  * Tolerances: a gap of 1e-9 of the curve's radius (rounding is 1e-15 of it, and conditions inside a patch may
  * amplify that); 0.001 degrees (a hundredth of what car bodies ask for; rounding makes 1e-9); 1e-4 of the
@@ -172,13 +171,13 @@ typedef enum ves_joint_class {
 } ves_joint_class;
 
 typedef struct ves_joint {
-    int patch[2], end[2];  /* patch[k] ends at u = end[k] there; in the order of the file */
-    const char *curve;     /* its name; of the problem */
-    double gap;            /* largest distance of the two surfaces, m */
-    double angle;          /* largest angle between their normals, 0 .. pi: how far the surface turns there */
-    double slope_jump;     /* largest |jump of X_w|, relative to the longer X_w there: 0 .. 2 */
-    double second_jump;    /* largest |jump of X_uu|, relative to the largest |X_uu| or |X_u| of both ends */
-    double curvature_jump; /* largest jump of the curvature across, 1/m; tells of G2 where there is G1 */
+    int patch[2], end[2]; /* patch[k] ends at u = end[k] there; in the order of the file */
+    const char *curve;    /* its name, of the problem: that at the first end; NULL: a sheet, which has none */
+    double gap;           /* largest distance of the two surfaces, m */
+    double angle;         /* largest angle between their normals, 0 .. pi: how far the surface turns there */
+    double slope_jump;    /* largest |jump of X_w|, relative to the longer X_w there: 0 .. 2 */
+    double second_jump;   /* largest |jump of X_uu|, relative to the largest |X_uu| or |X_u| of both ends */
+    double curvature_jump;     /* largest jump of the curvature across, 1/m; tells of G2 where there is G1 */
     double curvature_relative; /* the same, relative to the largest such curvature of both ends, or to 1 over
                                   the curve's radius (its root mean square distance from its middle) */
     ves_joint_class continuity;

@@ -218,7 +218,7 @@ static void joint_row(app_table *t, const ves_problem *p, const ves_joint *j)
                *per_metre = p->units ? " 1/m" : "";
     app_table_cell(t, "%s.u%d, %s.u%d", p->patch[j->patch[0]].name, j->end[0], p->patch[j->patch[1]].name,
                    j->end[1]);
-    app_table_cell(t, "%s", j->curve);
+    app_table_cell(t, "%s", j->curve ? j->curve : "itself");
     app_table_cell(t, "%s", class);
     if (j->continuity == VES_JOINT_OPEN)
         app_table_cell(t, "a gap of %.2g%s", j->gap, metre);

@@ -14,6 +14,12 @@ static const double FLAT = 1e-12;
 
 /* --- which --- */
 
+/* A closed patch that meets itself at its ends, which are not one curve by name. */
+static bool meets_itself(const ves_plan *plan, int patch)
+{
+    return plan->sheet[patch].ends.joined && ves_patch_periodic(plan->patch[patch]);
+}
+
 /* Fills in the ends of joint `index`; returns how many joints there are up to that one. */
 static int find(const ves_plan *plan, int index, ves_joint *joint)
 {
@@ -28,6 +34,13 @@ static int find(const ves_plan *plan, int index, ves_joint *joint)
             return count;
         }
     }
+    for (int k = 0; k < plan->problem->patches; k++) {
+        if (!meets_itself(plan, k) || count++ != index) continue;
+        int curve = ves_end_curve(plan, k, 1);
+        *joint = (ves_joint){
+            .patch = {k, k}, .end = {1, 0}, .curve = curve < 0 ? NULL : plan->problem->curve[curve].name};
+        return count;
+    }
     return count;
 }
 
@@ -39,9 +52,11 @@ int ves_plan_joints(const ves_plan *plan)
 
 /* --- what is there --- */
 
-/* One end of a patch at so many places: at[(f * 3 + c) * count + j]. */
+/* One end of a patch at so many places: at[(f * 3 + c) * count + j], v = shift + run j / count, run 2 pi or,
+ * where two ends run against each other, -2 pi. */
 typedef struct rim {
     int count;
+    double shift, run;
     double *at;
 } rim;
 
@@ -53,7 +68,10 @@ static ves_status rim_sample(ves_plan *plan, int patch, int end, ves_arena *aren
     ves_chart *chart;
     r->at = ves_arena_doubles(arena, (size_t)(3 * VES_FIELDS * r->count));
     if (!grid || !v || !r->at) return VES_MEMORY;
-    for (int j = 0; j < r->count; j++) v[j] = VES_TWO_PI * j / r->count;
+    for (int j = 0; j < r->count; j++) {
+        v[j] = r->shift + r->run * j / r->count;
+        v[j] -= VES_TWO_PI * floor(v[j] / VES_TWO_PI);
+    }
     VES_TRY(ves_patch_status(plan->patch[patch]));
     VES_TRY(ves_grid_given(1, &u, r->count, v, true, arena, grid));
     VES_TRY(ves_chart_create(plan->patch[patch], grid, EVERYTHING, arena, &chart));
@@ -92,10 +110,12 @@ static void forms(side *s)
     s->curvature = across * G / (length * length);
 }
 
+/* sign: of u across the joint. v runs as it does at the first end. */
 static void side_at(const rim *r, int j, double sign, side *s)
 {
+    double along = r->run < 0 ? -1 : 1;
     for (int f = 0; f < VES_FIELDS; f++) {
-        double turned = f == VES_FIELD_U || f == VES_FIELD_UV ? sign : 1;
+        double turned = (ves_field_d[f] == 1 ? sign : 1) * (ves_field_e[f] == 1 ? along : 1);
         for (int c = 0; c < 3; c++) s->field[f][c] = turned * r->at[(f * 3 + c) * r->count + j];
     }
     forms(s);
@@ -185,8 +205,13 @@ static ves_status measure(ves_plan *plan, ves_arena *arena, ves_joint *j)
 {
     rim r[2];
     sizes size = {0, 0};
+    plan_sheet now = {0}; /* how the ends lie on each other: the shift may vary */
+    if (j->patch[0] == j->patch[1] && meets_itself(plan, j->patch[0]))
+        VES_TRY(ves_sheet_look(plan, j->patch[0], &now));
     for (int k = 0; k < 2; k++) {
-        r[k].count = places(plan, j);
+        r[k] = (rim){.count = places(plan, j),
+                     .shift = k ? now.ends.shift : 0,
+                     .run = k && now.ends.reversed ? -VES_TWO_PI : VES_TWO_PI};
         VES_TRY(rim_sample(plan, j->patch[k], j->end[k], arena, &r[k]));
     }
     for (int i = 0; i < r[0].count; i++) {
