@@ -26,7 +26,7 @@ typedef struct oracle {
     oracle_root root[ORACLE_MOST / 2];
 } oracle;
 
-static mpfr_t *oracle_numbers(const oracle *o, int count)
+static inline mpfr_t *oracle_numbers(const oracle *o, int count)
 {
     mpfr_t *x = malloc(sizeof *x * (size_t)count);
     for (int k = 0; k < count; k++) {
@@ -36,24 +36,24 @@ static mpfr_t *oracle_numbers(const oracle *o, int count)
     return x;
 }
 
-static void oracle_free(int count, mpfr_t *x)
+static inline void oracle_free(int count, mpfr_t *x)
 {
     for (int k = 0; k < count; k++) mpfr_clear(x[k]);
     free(x);
 }
 
-static void oracle_init(oracle *o, long bits)
+static inline void oracle_init(oracle *o, long bits)
 {
     o->bits = bits, o->roots = 0;
 }
 
-static void oracle_clear(oracle *o)
+static inline void oracle_clear(oracle *o)
 {
     for (int k = 0; k < o->roots; k++) mpfr_clears(o->root[k].p, o->root[k].q, (mpfr_ptr)0);
     mpfr_free_cache();
 }
 
-static oracle_root *oracle_add(oracle *o, double p, double q, int multiplicity)
+static inline oracle_root *oracle_add(oracle *o, double p, double q, int multiplicity)
 {
     oracle_root *r = &o->root[o->roots++];
     mpfr_inits2(o->bits, r->p, r->q, (mpfr_ptr)0);
@@ -64,7 +64,7 @@ static oracle_root *oracle_add(oracle *o, double p, double q, int multiplicity)
 }
 
 /* r^0 .. r^d, real and imaginary parts */
-static void oracle_powers(const oracle_root *r, int d, mpfr_t *re, mpfr_t *im)
+static inline void oracle_powers(const oracle_root *r, int d, mpfr_t *re, mpfr_t *im)
 {
     mpfr_set_ui(re[0], 1, MPFR_RNDN);
     mpfr_set_ui(im[0], 0, MPFR_RNDN);
@@ -75,7 +75,8 @@ static void oracle_powers(const oracle_root *r, int d, mpfr_t *re, mpfr_t *im)
 }
 
 /* Leibniz: D^d (u^k e^(ru)) e^(-ru) = sum_j C(d,j) k!/(k-j)! u^(k-j) r^(d-j), here times sign^(d-j). */
-static void oracle_leibniz(int k, int d, double sign, mpfr_t *u, mpfr_t *power, mpfr_t term, mpfr_t sum)
+static inline void oracle_leibniz(int k, int d, double sign, mpfr_t *u, mpfr_t *power, mpfr_t term,
+                                  mpfr_t sum)
 {
     mpfr_t factor;
     mpfr_init2(factor, mpfr_get_prec(sum));
@@ -95,7 +96,7 @@ static void oracle_leibniz(int k, int d, double sign, mpfr_t *u, mpfr_t *power, 
 }
 
 /* e^(pu), cos(qu), sin(qu); with sign -1: of -r. e^(p(u-1)) for +r, so that no member is huge at one end. */
-static void oracle_wave(const oracle_root *r, double sign, mpfr_t *u, mpfr_t e, mpfr_t c, mpfr_t s)
+static inline void oracle_wave(const oracle_root *r, double sign, mpfr_t *u, mpfr_t e, mpfr_t c, mpfr_t s)
 {
     if (sign > 0)
         mpfr_sub_ui(e, u[1], 1, MPFR_RNDN);
@@ -109,7 +110,8 @@ static void oracle_wave(const oracle_root *r, double sign, mpfr_t *u, mpfr_t e, 
 }
 
 /* The members of one root from member m on, D^d of each at u: row[member * stride]. Returns how many. */
-static int oracle_family(const oracle *o, const oracle_root *r, mpfr_t *u, int d, int stride, mpfr_t *row)
+static inline int oracle_family(const oracle *o, const oracle_root *r, mpfr_t *u, int d, int stride,
+                                mpfr_t *row)
 {
     mpfr_t *re = oracle_numbers(o, 2 * (d + 1)), *im = re + d + 1, *x = oracle_numbers(o, 6);
     int m = 0;
@@ -134,7 +136,7 @@ static int oracle_family(const oracle *o, const oracle_root *r, mpfr_t *u, int d
 }
 
 /* D^d of all n members at u. */
-static void oracle_members(const oracle *o, int n, double at, int d, int stride, mpfr_t *row)
+static inline void oracle_members(const oracle *o, int n, double at, int d, int stride, mpfr_t *row)
 {
     mpfr_t *u = oracle_numbers(o, n + 1);
     mpfr_set_ui(u[0], 1, MPFR_RNDN);
@@ -156,7 +158,7 @@ static void oracle_members(const oracle *o, int n, double at, int d, int stride,
 }
 
 /* t x = b for the columns n .. width - 1 of t, n rows: left in their place. */
-static void oracle_eliminate(int n, int width, mpfr_t *t)
+static inline void oracle_eliminate(int n, int width, mpfr_t *t)
 {
     mpfr_t f;
     mpfr_init2(f, mpfr_get_prec(t[0]));
@@ -183,8 +185,8 @@ static void oracle_eliminate(int n, int width, mpfr_t *t)
 }
 
 /* weight[(d * n + j) * nu + i], d < orders: D^d of cardinal function j at u[i]. */
-static void oracle_weights(const oracle *o, const ves_layout *layout, int orders, int nu, const double *u,
-                           mpfr_t *weight)
+static inline void oracle_weights(const oracle *o, const ves_layout *layout, int orders, int nu,
+                                  const double *u, mpfr_t *weight)
 {
     int n = 2 * layout->power, width = n + orders * nu;
     mpfr_t *t = oracle_numbers(o, n * width);
@@ -201,8 +203,8 @@ static void oracle_weights(const oracle *o, const ves_layout *layout, int orders
 }
 
 /* The same as doubles. */
-static void oracle_doubles(const oracle *o, const ves_layout *layout, int orders, int nu, const double *u,
-                           double *weight)
+static inline void oracle_doubles(const oracle *o, const ves_layout *layout, int orders, int nu,
+                                  const double *u, double *weight)
 {
     int size = orders * 2 * layout->power * nu;
     mpfr_t *w = oracle_numbers(o, size);
@@ -212,10 +214,95 @@ static void oracle_doubles(const oracle *o, const ves_layout *layout, int orders
 }
 
 /* (D^2 - lam^2)^N. */
-static void oracle_power(oracle *o, int N, double lam, long bits)
+static inline void oracle_power(oracle *o, int N, double lam, long bits)
 {
     oracle_init(o, bits);
     oracle_add(o, lam, 0, N);
+}
+
+/* --- roots of a general operator: by Durand and Kerner's iteration, in MPFR --- */
+
+typedef struct oracle_complex {
+    mpfr_t re, im;
+} oracle_complex;
+
+static inline void oracle_multiply(const oracle_complex *a, const oracle_complex *b, oracle_complex *out,
+                                   mpfr_t t)
+{
+    mpfr_fmms(t, a->re, b->re, a->im, b->im, MPFR_RNDN);
+    mpfr_fmma(out->im, a->re, b->im, a->im, b->re, MPFR_RNDN);
+    mpfr_set(out->re, t, MPFR_RNDN);
+}
+
+/* a / b, left in a */
+static inline void oracle_divide(oracle_complex *a, const oracle_complex *b, mpfr_t t, mpfr_t size)
+{
+    mpfr_fmma(size, b->re, b->re, b->im, b->im, MPFR_RNDN);
+    mpfr_fmma(t, a->re, b->re, a->im, b->im, MPFR_RNDN);
+    mpfr_fmms(a->im, a->im, b->re, a->re, b->im, MPFR_RNDN);
+    mpfr_div(a->re, t, size, MPFR_RNDN);
+    mpfr_div(a->im, a->im, size, MPFR_RNDN);
+}
+
+/* One step for root i of s^N + sum_k b_k s^(N-k): z_i -= p(z_i) / prod (z_i - z_j). */
+static inline void oracle_step(int N, mpfr_t *b, oracle_complex *z, int i, oracle_complex *x, mpfr_t *t)
+{
+    mpfr_set_ui(x[0].re, 1, MPFR_RNDN), mpfr_set_ui(x[0].im, 0, MPFR_RNDN);
+    mpfr_set_ui(x[1].re, 1, MPFR_RNDN), mpfr_set_ui(x[1].im, 0, MPFR_RNDN);
+    for (int k = 1; k <= N; k++) {
+        oracle_multiply(&x[0], &z[i], &x[0], t[0]);
+        mpfr_add(x[0].re, x[0].re, b[k], MPFR_RNDN);
+    }
+    for (int j = 0; j < N; j++) {
+        if (j == i) continue;
+        mpfr_sub(x[2].re, z[i].re, z[j].re, MPFR_RNDN), mpfr_sub(x[2].im, z[i].im, z[j].im, MPFR_RNDN);
+        oracle_multiply(&x[1], &x[2], &x[1], t[0]);
+    }
+    oracle_divide(&x[0], &x[1], t[0], t[1]);
+    mpfr_sub(z[i].re, z[i].re, x[0].re, MPFR_RNDN), mpfr_sub(z[i].im, z[i].im, x[0].im, MPFR_RNDN);
+}
+
+/* r = sqrt(s), Re r > 0; conjugates are one root. */
+static inline void oracle_add_square(oracle *o, const oracle_complex *s, mpfr_t t)
+{
+    mpfr_hypot(t, s->re, s->im, MPFR_RNDN);
+    mpfr_mul_2si(t, t, -o->bits / 2, MPFR_RNDN);
+    bool real = mpfr_cmpabs(s->im, t) < 0;
+    if (!real && mpfr_sgn(s->im) < 0) return;
+    oracle_root *r = oracle_add(o, 0, 0, 1);
+    mpfr_hypot(t, s->re, s->im, MPFR_RNDN);
+    mpfr_add(t, t, s->re, MPFR_RNDN);
+    mpfr_div_2ui(t, t, 1, MPFR_RNDN);
+    mpfr_sqrt(r->p, t, MPFR_RNDN);
+    if (real) return;
+    mpfr_div(r->q, s->im, r->p, MPFR_RNDN);
+    mpfr_div_2ui(r->q, r->q, 1, MPFR_RNDN);
+}
+
+/* The operator sum_k c_k d_u^(2N-2k) d_v^(2k) in mode n > 0, with c_which changed by a part `by` of c_0 (which
+ * < 0: not). All roots must differ; those of an operator with repeated ones do, once it is changed. */
+static inline void oracle_operator(oracle *o, const ves_operator *op, double n, int which, mpfr_t by,
+                                   long bits)
+{
+    int N = op->power;
+    oracle_init(o, bits);
+    mpfr_t *b = oracle_numbers(o, N + 1 + 2 * N + 6 + 2), *w = b + N + 1, *t = w + 2 * N + 6;
+    oracle_complex *z = (oracle_complex *)w, *x = z + N; /* pairs of numbers */
+    for (int k = 0; k <= N; k++) {
+        mpfr_set_d(b[k], op->parameter[k], MPFR_RNDN);
+        if (k == which) mpfr_fma(b[k], by, b[0], b[k], MPFR_RNDN);
+        for (int f = 0; f < 2 * k; f++) mpfr_mul_d(b[k], b[k], n, MPFR_RNDN);
+        if (k % 2) mpfr_neg(b[k], b[k], MPFR_RNDN);
+    }
+    for (int k = N; k >= 0; k--) mpfr_div(b[k], b[k], b[0], MPFR_RNDN);
+    for (int i = 0; i < N; i++) {
+        mpfr_set_d(z[i].re, n * n * pow(1.3, i) * cos(2.4 * i + 0.7), MPFR_RNDN);
+        mpfr_set_d(z[i].im, n * n * pow(1.3, i) * sin(2.4 * i + 0.7), MPFR_RNDN);
+    }
+    for (int step = 0; step < 250; step++)
+        for (int i = 0; i < N; i++) oracle_step(N, b, z, i, x, t);
+    for (int i = 0; i < N; i++) oracle_add_square(o, &z[i], t[0]);
+    oracle_free(N + 1 + 2 * N + 6 + 2, b);
 }
 
 #endif

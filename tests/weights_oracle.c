@@ -160,7 +160,8 @@ static void check(rule place, int from, int to, int step)
 {
     static const double lam[] = {0, 0.01, 0.1, 0.5, 1, 3, 10, 23, 24, 30, 100, 300, 1000, 1280};
     /* in units of N: both sides of where the basis changes, or may */
-    static const double change[] = {0.2999, 0.3001, 0.6, 0.9, 1.1499, 1.1501, 1.2999, 1.3001, 1.4999, 1.5001};
+    static const double change[] = {0.2999, 0.3001, 0.6,    0.9,    1.1499, 1.1501,
+                                    1.3,    1.4999, 1.5001, 1.9999, 2.0001};
     for (int N = from; N <= to; N += step) {
         ves_layout layout = layout_of(place, N);
         for (size_t k = 0; k < sizeof lam / sizeof *lam; k++) {

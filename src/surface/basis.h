@@ -17,26 +17,36 @@
 #include "surface/twofold.h"
 #include "surface/weights.h"
 
+enum { VES_SERIES = 260 };
+
+/* The symmetric polynomials h_m of the roots in units of kappa^2, and their derivatives by each parameter. */
+typedef struct ves_series {
+    int terms;
+    double kappa; /* a power of 2 */
+    ves_two h[VES_SERIES / 2], slope[VES_PARAMETERS_MAX][VES_SERIES / 2];
+} ves_series;
+
 /* The mode of an operator that is being solved. */
 typedef struct ves_mode {
     const ves_operator *op;
     double n;
+    int orders; /* derivatives 0 .. orders - 1 will be wanted */
+    bool slopes;
     ves_factor factor; /* general operators only */
     bool centred;
+    ves_series series; /* of the centred basis only */
 } ves_mode;
 
 /* value[member * orders + d], slope[(parameter * members + member) * orders + d] (NULL: not wanted); members =
- * 2 N. series: scratch of VES_SERIES numbers and as many in registers. */
-enum { VES_SERIES = 260 };
+ * 2 N. */
 typedef struct ves_basis {
     int orders;
     ves_twos *value, *slope;
     ves_twos *power; /* [VES_SERIES] scratch */
 } ves_basis;
 
-void ves_mode_init(const ves_operator *op, double n, bool slopes, ves_mode *mode);
 double ves_mode_size(const ves_mode *mode); /* the rate: about the largest |r| */
-void ves_basis_eval(const ves_mode *mode, ves_lanes u, const ves_basis *basis);
+void ves_mode_center(ves_mode *mode);       /* makes it centred */
 
 void ves_basis_centred(const ves_mode *mode, ves_lanes u, const ves_basis *basis);
 void ves_basis_decaying(const ves_mode *mode, ves_lanes u, const ves_basis *basis);

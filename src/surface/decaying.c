@@ -9,7 +9,7 @@ static void family(const ves_mode *mode, ves_twos u, double sign, int first, con
     ves_twos before[2 * VES_CONDITIONS_MAX], f = ves_twos_exp(ves_twos_times(u, minus));
     for (int k = 0; k <= N; k++) {
         ves_twos here[2 * VES_CONDITIONS_MAX];
-        if (k) f = ves_twos_times(ves_twos_multiply(f, u), ves_two_divide(ves_two_of(1), ves_two_of(k)));
+        if (k) f = ves_twos_times(ves_twos_multiply(f, u), ves_two_inverse(k));
         here[0] = f;
         for (int d = 1; d < orders; d++) {
             here[d] = ves_twos_times(here[d - 1], minus);

@@ -13,7 +13,7 @@ _Static_assert(K % VES_LANES == 0, "rows are whole registers");
 /* Times N: centred below, decaying above. Between NEAR and FAR that depends on the conditions where N > CLEAR
  * (Navier's want the decaying basis, functions inside the centred one): the better conditioned is taken. Up to
  * CLEAR either is good for 1e-15 here [measured: tests/weights_oracle.c]. */
-static const double SWITCH = 1.15, NEAR = 0.3, FAR = 1.3;
+static const double SWITCH = 1.15, NEAR = 0.3, FAR = 2;
 enum { CLEAR = 16 };
 
 double ves_mode_size(const ves_mode *mode)
@@ -21,15 +21,16 @@ double ves_mode_size(const ves_mode *mode)
     return mode->n * (mode->op->general ? mode->factor.rate : mode->op->parameter[0]);
 }
 
-void ves_mode_init(const ves_operator *op, double n, bool slopes, ves_mode *mode)
+static void mode_init(const ves_operator *op, double n, int orders, bool slopes, ves_mode *mode)
 {
-    *mode = (ves_mode){.op = op, .n = n};
+    mode->op = op, mode->n = n, mode->orders = orders, mode->slopes = slopes;
     if (op->general) ves_factor_make(op, slopes, &mode->factor);
     /* roots of a general operator may be of different sizes: those near 0 want the centred one too */
     mode->centred = ves_mode_size(mode) <= SWITCH * op->power + (op->general ? 4 : 0);
+    if (mode->centred) ves_mode_center(mode);
 }
 
-void ves_basis_eval(const ves_mode *mode, ves_lanes u, const ves_basis *basis)
+static void basis_eval(const ves_mode *mode, ves_lanes u, const ves_basis *basis)
 {
     if (mode->centred)
         ves_basis_centred(mode, u, basis);
@@ -47,7 +48,8 @@ typedef struct conditions {
     ves_twos (*a)[BLOCKS];
     ves_two (*slope)[K][K]; /* [parameters]: the derivative of the scaled matrix */
     double row[K], column[K], size[K];
-    int origin[K]; /* which condition stands in this row now */
+    ves_two inverse[K]; /* of the pivots */
+    int origin[K];      /* which condition stands in this row now */
 } conditions;
 
 typedef struct work {
@@ -141,7 +143,7 @@ static void matrix_fill(const ves_layout *layout, const ves_mode *mode, work *w)
     for (int first = 0; first < n; first += LANES) {
         ves_lanes u;
         for (int i = 0; i < LANES; i++) u[i] = layout->knot[first + i < n ? first + i : n - 1].u;
-        ves_basis_eval(mode, u, &w->basis);
+        basis_eval(mode, u, &w->basis);
         for (int m = 0; m < n; m++) {
             member_size(mode, &w->basis, m, &s->size[m]);
             for (int j = first; j < n && j < first + LANES; j++) {
@@ -216,10 +218,11 @@ static bool factor(conditions *s)
             ves_twos x = s->a[p][b];
             s->a[p][b] = s->a[best][b], s->a[best][b] = x;
         }
+        s->inverse[p] = ves_two_divide(ves_two_of(1), pivot);
         int origin = s->origin[p];
         s->origin[p] = s->origin[best], s->origin[best] = origin;
         for (int r = p + 1; r < n; r++) {
-            ves_two f = ves_two_divide(entry(s, r, p), pivot);
+            ves_two f = ves_two_multiply(entry(s, r, p), s->inverse[p]);
             ves_twos kept = s->a[r][p / LANES]; /* factors of L left of the pivot are not to be changed */
             for (int b = p / LANES; b < (n + LANES - 1) / LANES; b++)
                 s->a[r][b] = ves_twos_subtract(s->a[r][b], ves_twos_times(s->a[p][b], f));
@@ -230,16 +233,21 @@ static bool factor(conditions *s)
     return true;
 }
 
+/* x - sum over i in [from, to) of x_i a_im */
+static ves_twos eliminated(const conditions *s, const ves_twos *x, int m, int from, int to)
+{
+    ves_twos sum = ves_twos_negative(x[m]);
+    for (int i = from; i < to; i++) sum = ves_twos_gather(sum, x[i], ves_twos_of(entry(s, i, m)));
+    return ves_twos_sum(-sum.hi, -sum.lo);
+}
+
 /* w a = x for eight rows x, which are overwritten; w[condition]. */
 static void solve(const conditions *s, ves_twos *x, ves_twos *w)
 {
     int n = s->n;
-    for (int m = 0; m < n; m++) { /* y U = x */
-        for (int i = 0; i < m; i++) x[m] = ves_twos_subtract(x[m], ves_twos_times(x[i], entry(s, i, m)));
-        x[m] = ves_twos_times(x[m], ves_two_divide(ves_two_of(1), entry(s, m, m)));
-    }
-    for (int m = n - 2; m >= 0; m--) /* z L = y */
-        for (int i = m + 1; i < n; i++) x[m] = ves_twos_subtract(x[m], ves_twos_times(x[i], entry(s, i, m)));
+    for (int m = 0; m < n; m++) /* y U = x */
+        x[m] = ves_twos_times(eliminated(s, x, m, 0, m), s->inverse[m]);
+    for (int m = n - 2; m >= 0; m--) x[m] = eliminated(s, x, m, m + 1, n); /* z L = y */
     for (int m = 0; m < n; m++) w[s->origin[m]] = x[m];
 }
 
@@ -299,6 +307,7 @@ static void choose(const ves_layout *layout, ves_mode *mode, const work *w)
     trial.s.parameters = 0, trial.basis.slope = NULL;
     for (int centred = 0; centred < 2; centred++) {
         mode->centred = centred;
+        if (centred) ves_mode_center(mode);
         matrix_fill(layout, mode, &trial);
         condition_find(&trial, &condition[centred]);
     }
@@ -328,8 +337,9 @@ static void slope_side(const work *w, int p, int d, ves_twos *x)
     int n = s->n, orders = w->basis.orders;
     for (int m = 0; m < n; m++) {
         x[m] = ves_twos_shift(w->basis.slope[(p * n + m) * orders + d], s->column[m]);
-        for (int j = 0; j < n; j++)
-            x[m] = ves_twos_subtract(x[m], ves_twos_times(w->y[j], s->slope[p][j][m]));
+        ves_twos sum = ves_twos_negative(x[m]);
+        for (int j = 0; j < n; j++) sum = ves_twos_gather(sum, w->y[j], ves_twos_of(s->slope[p][j][m]));
+        x[m] = ves_twos_sum(-sum.hi, -sum.lo);
     }
 }
 
@@ -341,7 +351,7 @@ static bool block_make(const ves_mode *mode, work *w, int nu, const double *u, i
     ves_lanes place;
     for (int i = 0; i < LANES; i++) place[i] = u[block + i < nu ? block + i : nu - 1];
     w->basis.orders = out->orders;
-    ves_basis_eval(mode, place, &w->basis);
+    basis_eval(mode, place, &w->basis);
     for (int d = 0; d < out->orders; d++) {
         for (int m = 0; m < s->n; m++)
             w->x[m] = ves_twos_shift(w->basis.value[m * out->orders + d], s->column[m]);
@@ -375,7 +385,7 @@ ves_status ves_exact_mode(const ves_layout *layout, const ves_operator *op, doub
     ves_mode mode;
     work w;
     bool slopes = out->slope;
-    ves_mode_init(op, n, slopes, &mode);
+    mode_init(op, n, orders_of(layout, out->orders), slopes, &mode);
     work_init(layout, op, out->orders, slopes, room, &w);
     choose(layout, &mode, &w);
     matrix_fill(layout, &mode, &w);
@@ -390,7 +400,7 @@ ves_status ves_exact_condition(const ves_layout *layout, const ves_operator *op,
 {
     ves_mode mode;
     work w;
-    ves_mode_init(op, n, false, &mode);
+    mode_init(op, n, orders_of(layout, 1), false, &mode);
     work_init(layout, op, 1, false, room, &w);
     choose(layout, &mode, &w);
     matrix_fill(layout, &mode, &w);

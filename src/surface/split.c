@@ -57,7 +57,7 @@ static void taylor(const ves_factor *f, int parameters, ves_twos h, square *e, s
             for (int p = 0; p < parameters; p++) slope[p].e[i][j] = (ves_twos){{0}, {0}};
         }
     for (int j = TERMS; j >= 1; j--) {
-        ves_twos by = ves_twos_times(h, ves_two_divide(ves_two_of(1), ves_two_of(j)));
+        ves_twos by = ves_twos_times(h, ves_two_inverse(j));
         for (int p = 0; p < parameters; p++) {
             companion(N, f->q, &slope[p], &next);
             last_row(N, f->slope[p], e, next.e[N - 1]);

@@ -23,7 +23,12 @@ static const ves_two INVERSE[TERMS] = {
 ves_twos ves_twos_exp(ves_twos x)
 {
     ves_lanes k, power;
-    for (int i = 0; i < VES_LANES; i++) k[i] = nearbyint(x.hi[i] / LN2.hi);
+    for (int i = 0; i < VES_LANES; i++) {
+        bool none = x.hi[i] < LEAST;
+        if (none) x.hi[i] = x.lo[i] = 0;
+        k[i] = nearbyint(x.hi[i] / LN2.hi);
+        power[i] = none ? 0 : ldexp(1, (int)k[i]);
+    }
     ves_twos whole = {k, (ves_lanes){0}};
     ves_twos r = ves_twos_subtract(x, ves_twos_times(whole, LN2));
     r = ves_twos_shift(r, 0x1p-8);
@@ -35,6 +40,5 @@ ves_twos ves_twos_exp(ves_twos x)
     for (int i = 0; i < HALVINGS; i++) /* e^2r - 1 = (e^r - 1)^2 + 2 (e^r - 1) */
         sum = ves_twos_add(ves_twos_multiply(sum, sum), ves_twos_shift(sum, 2));
     sum = ves_twos_add(sum, ves_twos_of(ves_two_of(1)));
-    for (int i = 0; i < VES_LANES; i++) power[i] = x.hi[i] < LEAST ? 0 : ldexp(1, (int)k[i]);
     return (ves_twos){sum.hi * power, sum.lo * power};
 }

@@ -84,7 +84,25 @@ VES_TWO_INLINE ves_two ves_two_divide(ves_two a, ves_two b)
     return ves_two_add(ves_two_quick(q, q2), ves_two_of(r.hi / b.hi));
 }
 
+/* 1 / i of a whole number. */
+VES_TWO_INLINE ves_two ves_two_inverse(int i)
+{
+    double q = 1. / i;
+    return (ves_two){q, __builtin_fma(-q, i, 1) / i};
+}
+
 /* --- in registers --- */
+
+VES_TWO_INLINE ves_lanes ves_lanes_fma(ves_lanes a, ves_lanes b, ves_lanes c)
+{
+#ifdef __AVX512F__
+    return (ves_lanes)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+#else
+    ves_lanes r;
+    for (int k = 0; k < VES_LANES; k++) r[k] = __builtin_fma(a[k], b[k], c[k]);
+    return r;
+#endif
+}
 
 VES_TWO_INLINE ves_lanes ves_lanes_fms(ves_lanes a, ves_lanes b, ves_lanes c)
 {
@@ -147,6 +165,16 @@ VES_TWO_INLINE ves_twos ves_twos_multiply(ves_twos a, ves_twos b)
 VES_TWO_INLINE ves_twos ves_twos_times(ves_twos a, ves_two b)
 {
     return ves_twos_multiply(a, ves_twos_of(b));
+}
+
+/* sum + a b, for sums of many products: the low parts are added up as they come, half the work of add and
+ * multiply; ves_twos_sum(sum.hi, sum.lo) at the end. Off by 1e-32 of the sum of |a b| or so [Ogita, Rump,
+ * Oishi 2005]. */
+VES_TWO_INLINE ves_twos ves_twos_gather(ves_twos sum, ves_twos a, ves_twos b)
+{
+    ves_twos p = ves_twos_product(a.hi, b.hi), s = ves_twos_sum(sum.hi, p.hi);
+    ves_lanes low = ves_lanes_fma(a.hi, b.lo, ves_lanes_fma(a.lo, b.hi, p.lo));
+    return (ves_twos){s.hi, sum.lo + (s.lo + low)};
 }
 
 /* Exact: by a power of 2. */

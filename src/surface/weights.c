@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/arena.h"
+#include "base/vector.h"
 #include "surface/exact.h"
 #include "surface/fast.h"
 
@@ -77,6 +78,7 @@ ves_status ves_weights_bind(const ves_layout *layout, const ves_operator *op, in
 
 enum { LOOKS = 256 };
 
+/* Looked for at Chebyshev's places: what conditions inside make grows towards the ends, in layers 1 / lam wide. */
 static ves_status lebesgue(const ves_layout *layout, const ves_operator *op, double n, ves_arena *arena,
                            double *found)
 {
@@ -85,7 +87,7 @@ static ves_status lebesgue(const ves_layout *layout, const ves_operator *op, dou
     double *room = ves_arena_doubles(arena, (size_t)ves_weights_room(layout, LOOKS)), u[LOOKS];
     *found = 0;
     if (!weight || !room) return VES_MEMORY;
-    for (int i = 0; i < LOOKS; i++) u[i] = (double)i / (LOOKS - 1);
+    for (int i = 0; i < LOOKS; i++) u[i] = (1 - cos(VES_PI * i / (LOOKS - 1))) / 2;
     VES_TRY(ves_weights_mode(layout, op, n, LOOKS, u, &(ves_table){.weight = weight, .room = room}));
     for (int i = 0; i < LOOKS; i++) {
         double sum = 0;
