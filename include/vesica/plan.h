@@ -43,9 +43,10 @@ void ves_plan_destroy(ves_plan *plan); /* NULL: nothing */
 /* The grid of level 0: nodes along u and v of each patch; level 1 has twice as many of both. Where it was
  * chosen: from 16 nodes along u, and along v enough to see the modes that are solved, each direction was
  * refined by half until two refinements in a row changed no measure (extremes left out) by more
- * than 1e-9 of its size, up to 128 and 512 nodes, at the start design or, if that cannot be measured or is a
- * closed shape that encloses nothing, at the first of up to 31 others that can and does. Returns the largest
- * relative change that was left; NAN when nothing was chosen or nothing could be measured. */
+ * than 1e-9 of its size, up to 128 and 512 nodes (for a patch of more than 12 conditions, up to 10 for each of
+ * them along u, and 65536 in all), at the start design or, if that cannot be measured or is a closed shape that
+ * encloses nothing, at the first of up to 31 others that can and does. Returns the largest relative change that
+ * was left; NAN when nothing was chosen or nothing could be measured. */
 double ves_plan_grid(const ves_plan *plan, int quadrature[2]);
 
 /* The same choice for the design x, or, where x is NULL or cannot be measured, as above; whatever the problem

@@ -315,6 +315,8 @@ ves_status ves_plan_create(const ves_problem *problem, const ves_plan_options *o
         /* it makes many plans; of what fails, but for memory, the one that is used will speak */
         if (ves_plan_choose(problem, NULL, chosen, &change) == VES_MEMORY)
             return ves_diag_fail(diag, VES_MEMORY);
+        if (chosen[0] > VES_CHOSEN_U && (double)chosen[0] * q[1] > VES_CHOSEN_U * VES_CHOSEN_V)
+            chosen[0] = VES_CHOSEN_U; /* beside so many around, which were given */
         for (int d = 0; d < 2; d++)
             if (q[d] == 0) q[d] = chosen[d];
     }

@@ -4,13 +4,28 @@
 #include <math.h>
 #include <string.h>
 
-enum { U_LEAST = 16, U_MOST = VES_CHOSEN_U, V_LEAST = 16, V_MOST = VES_CHOSEN_V };
+enum { U_LEAST = 16, V_LEAST = 16, V_MOST = VES_CHOSEN_V, NODES_MOST = VES_CHOSEN_U * VES_CHOSEN_V };
 
 static const double ENOUGH = 1e-9;
 
 static int rounded(int n)
 {
     return (n + VES_LANES - 1) / VES_LANES * VES_LANES;
+}
+
+/* The most nodes along u: a surface through many sections may turn at each, and wants ten nodes for it. */
+static int u_most(const ves_problem *problem)
+{
+    int most = VES_CHOSEN_U;
+    for (int k = 0; k < problem->patches; k++)
+        if (10 * problem->patch[k].conditions > most) most = 10 * problem->patch[k].conditions;
+    return most;
+}
+
+/* And so many less along v. */
+static int v_most(int u)
+{
+    return u > VES_CHOSEN_U ? NODES_MOST / u : V_MOST;
 }
 
 /* Measures of one design on one grid. */
@@ -51,8 +66,8 @@ static ves_status refine(const ves_plan *plan, const double *x, int d, int grid[
                          double *value)
 {
     const ves_problem *problem = plan->problem;
-    int count = problem->measures, most = d ? V_MOST : U_MOST, trial[2] = {grid[0], grid[1]}, calm = 0,
-        largest = grid[d];
+    int count = problem->measures, most = d ? v_most(grid[0]) : u_most(problem),
+        trial[2] = {grid[0], grid[1]}, calm = 0, largest = grid[d];
     double *next = value + count;
     *left = 0;
     VES_TRY(measures_on(problem, x, trial, value));
@@ -77,11 +92,11 @@ static ves_status refine(const ves_plan *plan, const double *x, int d, int grid[
  * so, and no reason for many nodes. */
 static ves_status begin(const ves_problem *problem, int grid[2], ves_plan **plan)
 {
-    const int most[2] = {U_MOST, V_MOST};
+    int most = u_most(problem);
     VES_TRY(ves_plan_try(problem, grid, plan));
     grid[1] = resolving(*plan);
     int trial[2] = {grid[0], grid[1]};
-    for (int turn = 1; trial[0] <= most[0] && trial[1] <= most[1]; turn = !turn) {
+    for (int turn = 1; trial[0] <= most && trial[1] <= v_most(trial[0]); turn = !turn) {
         ves_plan_destroy(*plan);
         VES_TRY(ves_plan_try(problem, trial, plan));
         if ((*plan)->measured == VES_FOLDED) {
