@@ -1,9 +1,9 @@
 /* Joins: two ends that lie on one curve take their derivatives there from the same fields,
  *     X_u = +- scale_i tangent,   X_uu = scale_i^2 bend,
- * so that one surface continues the other: u = s t on either side gives both the same first and second
- * derivative in t [Kubiesa 2004, eqs 29-32, for two patches at once]. An end u = 1 that meets an end u = 0
- * goes on in its direction; two ends of one kind run against each other. The conditions belong to the
- * patches; here they are kept until these are read. */
+ * so that one surface continues the other: with u scale_i as the parameter both have the same first and second
+ * derivative (the tangents and curvatures of [Kubiesa 2004, eqs 29-32], for two patches at once). An end u = 1
+ * that meets an end u = 0 goes on in its direction; two ends of one kind run against each other. The conditions
+ * belong to the patches; here they are kept until these are read. */
 #include "problem/reader.h"
 
 #include <string.h>

@@ -50,7 +50,7 @@ static const ves_entry curve[] = {
     END};
 
 static const ves_entry operator_keys[] = {
-    {{"power", VES_COUNT, .min = 1, .max = VES_POWER_MAX, .fallback = NAN, .about = "N of (d_uu + a^2 d_vv)^N X = 0, an equation of order 2N: it needs 2N conditions"}, "power: 2", NULL},
+    {{"power", VES_COUNT, .min = 1, .max = VES_POWER_MAX, .fallback = NAN, .about = "N of (d_uu + a^2 d_vv)^N X = 0, an equation of order 2N: it needs 2N conditions; with sections the power may be left out"}, "power: 2", NULL},
     {{"a", VES_NUMBER, .unit = "1", .min = 0, .max = 1e6, .fallback = 1, .about = "smoothing parameter: how fast the ends are forgotten inside; 0 is straight or cubic in u"}, "a: 0.925", NULL},
     {{"coefficients", VES_NUMBERS, .unit = "1", .about = "[c0, ..., cN] instead of power and a, N = 1 to 6: c0 d_u^(2N) X + c1 d_u^(2N-2) d_v^2 X + ... + cN d_v^(2N) X = 0; it must be elliptic, c0 t^N + c1 t^(N-1) + ... + cN > 0 for all t >= 0, as it is when all are positive"}, "coefficients: [1, 2, 1]", NULL},
     {{"x", VES_NUMBERS, .unit = "1", .about = "with y and z: coefficients as above, for each coordinate its own"}, "x: [1, 2, 1]", NULL},
@@ -112,15 +112,15 @@ static const ves_entry section_curve[] = {
 static const ves_entry sections_keys[] = {
     {{"of", VES_CURVE, .about = "the family that is sampled, at w = from + u (to - from)"}, "of: sec", NULL},
     {{"w", KIND(VES_SPAN), .about = "[from, to]: what the family's number runs over, whatever its name; may vary"}, "w: [0, 2*pi]", NULL},
-    {{"count", VES_COUNT, .min = 2, .max = VES_CONDITIONS_MAX, .about = "how many sections of the family"}, "count: 40", NULL},
+    {{"count", VES_COUNT, .min = 2, .max = VES_CONDITIONS_MAX, .fallback = NAN, .about = "how many sections of the family"}, "count: 40", NULL},
     {{"curves", KIND(VES_LIST), .about = "instead of of, w and count: the curves themselves, from u = 0 to u = 1"}, "curves: [p1, p2, p3, p4]", section_curve},
     {{"nodes", VES_CHOICE, .words = "chebyshev|equal", .about = "where they stand: section i of 0 ... K - 1 at u = (1 - cos(pi i/(K - 1)))/2, or equally spaced, which from some ten sections on swings wildly between them"}, "nodes: chebyshev", NULL},
     END};
 
 static const ves_entry patch_keys[] = {
     {{"operator", KIND(VES_MAP), .about = "the partial differential equation: (d_uu + a^2 d_vv)^power X = 0, or one with coefficients"}, "operator: {power: 2, a: 1}", operator_keys},
-    {{"conditions", KIND(VES_LIST), .about = "what the surface meets, at its ends and inside: as many as the order, 2 * power, none of them twice"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
-    {{"sections", KIND(VES_MAP), .about = "curves that the surface passes through, placed along u; the order of the equation follows from how many there are"}, "sections: {of: sec, w: [0, 2*pi], count: 40}", sections_keys},
+    {{"conditions", KIND(VES_LIST), .about = "what the surface meets, at its ends and inside: as many as the order, 2 * power, with sections and those that joins give, none of them twice"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
+    {{"sections", KIND(VES_MAP), .about = "curves that the surface passes through, placed along u: each is a condition, and the order of the equation follows from how many there are, with a = 1 unless operator says it"}, "sections: {of: sec, w: [0, 2*pi], count: 40}", sections_keys},
     {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved one by one; 0: chosen, see remainder, which may have it instead"}, "modes: 8", NULL},
     {{"remainder", KIND(VES_MAP), .about = "what becomes of the modes of the data beyond those that are solved: all of them cross the patch as one mode would, with lam = omega, so that every condition is met exactly; the equation is not, there. Conditions inside a patch amplify fine detail beyond all bounds, and this is what tames it"}, "remainder: {modes: 6, omega: auto}", remainder_keys},
     {{"raise", KIND(VES_LIST), .about = "conditions that raise the order, two for each power, and say how far the surface departs there from that of the lower order: by field, from and to, or differences at a derivative that is still free, or by nothing at all, which means 0; while all are 0 the surface is that of the lower order, with as many modes solved (only with power)"}, "raise: [{u: 0, derivative: 2, field: bend}, {u: 1, derivative: 2}]", raised},
