@@ -345,7 +345,7 @@ Test(patches, conditions_inside_tell_what_they_amplify)
         &b, "patch \"w\": its conditions make of mode 25 of their curves 1.3e+03 times as much, of mode 40 "
             "4.8e+05 times: digits are lost, and fine detail swamps the surface; solve fewer modes, "
             "remainder: {modes: 24}, or place them nearer to the ends, as Chebyshev's nodes are, u = (1 - "
-            "cos(pi*i/7))/2 for i = 0 to 7");
+            "cos(pi*i/7))/2 for i = 0 to 7 (nodes: chebyshev of sections)");
     bed_clear(&b);
     b = tube(node, "");
     f = ves_plan_patch(b.plan, 0);

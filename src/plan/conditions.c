@@ -93,7 +93,7 @@ static void warn(const ves_patch_def *d, const findings *f, ves_diag *diag)
         snprintf(
             place, sizeof place,
             "place them nearer to the ends, as Chebyshev's nodes are, u = (1 - cos(pi*i/%d))/2 for i = 0 "
-            "to %d",
+            "to %d (nodes: chebyshev of sections)",
             count - 1, count - 1);
     else
         snprintf(place, sizeof place, "%s",

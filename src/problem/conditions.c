@@ -23,10 +23,10 @@ typedef struct item {
     bool unclear; /* its derivative could not be read */
 } item;
 
-static const ves_entry *condition_table(void)
+static const ves_entry *item_table(const place *at)
 {
     const ves_entry *patch = ves_schema_find(ves_schema_root.table, "patches")->table->table;
-    return ves_schema_find(patch, "conditions")->table->table;
+    return ves_schema_find(patch, at->raise ? "raise" : "conditions")->table->table;
 }
 
 static const ves_node *find(const item *i, const char *name)
@@ -83,14 +83,10 @@ static void check_own(const item *i, bool any)
                          "\"scale\" belongs to derivatives, not to a position");
 }
 
-/* Of those that say how far it departs. */
+/* Of those that say how far it departs: by nothing, unless they say by what. */
 static void check_departure(const item *i, bool any)
 {
-    if (find(i, "position"))
-        ves_reader_error(i->at->reader, VES_SYNTAX, ves_fields_field(&i->f, "position")->word,
-                         "\"raise\" says how far the surface departs from that of the lower order: by a "
-                         "\"field\", not to a \"position\"");
-    else if (!any && find(i, "scale"))
+    if (!any && find(i, "scale"))
         ves_reader_error(i->at->reader, VES_NAME, ves_fields_field(&i->f, "scale")->word,
                          "\"scale\" has nothing to scale: \"field\" is missing");
 }
@@ -201,7 +197,7 @@ static void read_condition(const place *at, const ves_node *node, ves_condition 
 {
     item i = {.at = at, .node = node, .out = out};
     *out = (ves_condition){.mark = ves_reader_mark(at->reader, node), .scale = -1, .u = -1};
-    if (!ves_fields_read(at->reader, node, condition_table(), "condition", &i.f)) return;
+    if (!ves_fields_read(at->reader, node, item_table(at), at->raise ? "raise" : "condition", &i.f)) return;
     out->u = place_of(&i);
     out->derivative = derivative_of(&i);
     if (!i.unclear) check_form(&i);

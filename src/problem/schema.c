@@ -77,8 +77,18 @@ static const ves_entry condition[] = {
     {{"condition", KIND(VES_MAP), .about = "the surface or a derivative of it along one curve u = constant"}, "{u: 0, derivative: 1, from: p1, to: d1, scale: 2}", condition_keys},
     END};
 
+static const ves_entry departure_keys[] = {
+    {{"u", VES_NUMBER, .required = true, .unit = "1", .min = 0, .max = 1, .about = "where across the patch"}, "u: 0", NULL},
+    {{"derivative", VES_COUNT, .min = 0, .max = VES_CONDITIONS_MAX - 1, .about = "k of d_u^k X, less than the raised order"}, "derivative: 2", NULL},
+    {{"field", VES_CURVE, .about = "d_u^k X departs by scale * field"}, "field: bend", NULL},
+    {{"from", VES_CURVE, .about = "with `to`: by scale * (to - from)"}, "from: p1", NULL},
+    {{"to", VES_CURVE, .about = "with `from`: by scale * (to - from)"}, "to: d1", NULL},
+    {{"differences", KIND(VES_LIST), .about = "by scale times the k-th difference of k + 1 curves"}, "differences: [p1, p2, p3]", difference},
+    {{"scale", VES_NUMBER, .fallback = 1, .about = "how much of it"}, "scale: 0.5", NULL},
+    END};
+
 static const ves_entry raised[] = {
-    {{"condition", KIND(VES_MAP), .about = "how far the surface or a derivative of it departs along one curve u = constant"}, "{u: 0, derivative: 2, field: bend, scale: 0.5}", condition_keys},
+    {{"departure", KIND(VES_MAP), .about = "how far the surface or a derivative of it departs along one curve u = constant"}, "{u: 0, derivative: 2, field: bend, scale: 0.5}", departure_keys},
     END};
 
 static const ves_entry remainder_keys[] = {
