@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "oracle.h"
+#include "surface/fast.h"
 
 enum { PLACES = 13, ORDERS = 3, MOST = ORDERS * ORACLE_MOST * PLACES };
 
@@ -74,6 +75,7 @@ static void check_slope(int N, kind place, double lam, int n)
     double u[PLACES], *want = calloc(3 * MOST, sizeof *want), *got = want + MOST, *slope = got + MOST,
                       *room = room_for(&layout);
     ves_operator op = {.power = N, .parameter = {lam / n}};
+    bool fast = ves_fast_fits(&layout, &op);
     places(N, lam, u);
     oracle_slope(&layout, lam / n, n, u, want);
     ves_weights_mode(&layout, &op, n, PLACES, u, &(ves_table){.weight = got, .slope = slope, .room = room});
@@ -86,7 +88,7 @@ static void check_slope(int N, kind place, double lam, int n)
         }
         double floor = 0;
         for (int i = 0; i < PLACES; i++)
-            floor = fmax(floor, (N > 2 ? 1e-10 : 1) * n * fmin(lam, 1) * fabs(got[j * PLACES + i]));
+            floor = fmax(floor, (fast ? 1 : 1e-10) * n * fmin(lam, 1) * fabs(got[j * PLACES + i]));
         double unit = (1e-12 + 4e-16 * lam) * fmax(s[1], fmax(floor, s[0]) * pow(fmax(1, lam), d));
         cr_assert(
             fabs(slope[k] - want[k]) <= unit,
@@ -107,6 +109,36 @@ Test(weights_layout, derivatives_by_a_agree_for_every_order)
         for (kind k = 0; k < KINDS; k++)
             for (int l = 0; l < 10; l++)
                 if (N < 8 || (l + (int)k) % 3 == 0) check_slope(N, k, lam[l], mode[turn++ % 3]);
+}
+
+/* A table of all modes takes powers of e^(-a u) in the double path: as good as mode by mode. */
+Test(weights_layout, tables_agree_with_single_modes)
+{
+    enum { MODES = 40 };
+    for (int N = 1; N <= 5; N++)
+        for (double a = 0.01; a < 40; a *= 3.1) {
+            ves_layout layout = layout_of(N, HERMITE);
+            int columns = 2 * N, size = ORDERS * columns * PLACES;
+            double u[PLACES], *table = calloc((size_t)(2 * (MODES + 2) * size), sizeof *table),
+                              *slope = table + (MODES + 2) * size, *room = room_for(&layout);
+            double *one = table + (MODES + 1) * size, *by = slope + (MODES + 1) * size;
+            ves_operator op = {.power = N, .parameter = {a}};
+            places(N, 10 * a, u);
+            ves_weights_bind(&layout, &op, MODES, PLACES, u, &(ves_table){table, slope, room, false});
+            for (int n = 0; n <= MODES; n++) {
+                double lam = a * n, unit[ORDERS] = {1, fmax(1, lam), fmax(1, lam * lam)};
+                ves_weights_mode(&layout, &op, n, PLACES, u, &(ves_table){one, by, room, false});
+                for (int k = 0; k < size; k++) {
+                    double s = (1e-12 + 4e-16 * lam) * unit[k / PLACES / columns];
+                    double miss[] = {fabs(one[k] - table[n * size + k]),
+                                     fabs(by[k] - slope[n * size + k]) / (1 + n)};
+                    cr_assert(miss[0] <= s && miss[1] <= s, "order %d a %g mode %d entry %d: %.3g %.3g",
+                              columns, a, n, k, miss[0] / s, miss[1] / s);
+                }
+            }
+            free(room);
+            free(table);
+        }
 }
 
 /* --- raised orders --- */

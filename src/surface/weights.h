@@ -7,7 +7,7 @@
  *     weight[((n * 3 + d) * K + j) * nu + i] = d^d l_j / du^d (u_i),  d = 0, 1, 2
  * and, when asked, the derivative of each entry with respect to each parameter of the operator (same shape).
  *
- * Conditions at the ends, orders 2 and 4, are solved in double precision (fast.c), all others in
+ * Half of the conditions at each end, up to order 8, are solved in double precision (fast.c), all others in
  * double-double (exact.c): textbook bases lose every digit from order 14 on, these none.
  * test  MPFR oracle, every order: tests/weights_oracle.c states the bars */
 #ifndef VES_SURFACE_WEIGHTS_H
