@@ -10,8 +10,8 @@
 
 typedef struct ves_factor {
     int power;
-    double rate;                                        /* at least the largest |r|, at most 2 N times it */
-    ves_two q[VES_GENERAL_MAX];                         /* Q(r) = r^N + sum_k q_k r^k, r in units of rate */
+    double rate;                /* the largest |r| is 1 / (2 sqrt N) to sqrt 2 of it */
+    ves_two q[VES_GENERAL_MAX]; /* Q(r) = r^N + sum_k q_k r^k, r in units of rate */
     ves_two slope[VES_PARAMETERS_MAX][VES_GENERAL_MAX]; /* dq_k / dc_i, rate held */
 } ves_factor;
 

@@ -61,7 +61,7 @@ typedef struct ves_amplification {
     double
         lebesgue; /* max over u of the sum of |l_j(u)| over the function conditions: the size of the surface
                         that data of size 1 may make, and the digits lost */
-    double condition; /* estimate of the condition number of the equilibrated condition matrix */
+    double condition; /* the condition number of the condition matrix, in the best scaling that it has */
 } ves_amplification;
 ves_status ves_weights_amplification(const ves_layout *layout, const ves_operator *op, double n,
                                      ves_amplification *found);
