@@ -44,6 +44,13 @@ static const family FAMILY[] = {
 };
 enum { FAMILIES = sizeof FAMILY / sizeof *FAMILY };
 
+/* Slow roots beside a quick one: solutions that decay from the one end and from the other are then the same
+ * polynomials, but for 1e-12 or less of them. */
+static const family WIDE[] = {{"three slow, one quick", 2, {{0x1p-10, 0, 3}, {30, 0, 1}}},
+                              {"five slow, one quick", 2, {{0x1p-7, 0, 5}, {12, 0, 1}}},
+                              {"one slow, one quick", 2, {{0x1p-10, 0, 1}, {30, 0, 1}}}};
+enum { WIDES = sizeof WIDE / sizeof *WIDE };
+
 /* c_0 times prod (r^2 - s): c_k = (-1)^k times the coefficient, for n = 1. */
 static ves_operator operator_of(const family *f, double c0)
 {
@@ -182,12 +189,38 @@ Test(weights_general, curves_inside_agree_where_the_roots_are_real)
             check_values(&FAMILY[k], true, MODES[m], 0.1);
 }
 
-/* What 32 digits cannot do: order 12, roots from 1 to 20, curves inside. There the quick members are e^(-950 u)
- * of the slow ones. Up to n |r| = 680 all is well, at 1000 five digits are left (1e6 times the bar). */
-Test(weights_general, curves_inside_agree_as_long_as_the_quick_roots_count)
+/* Up to n |r| = 80 of the quick root the centred basis serves them all; beyond, what is left of 32 digits is
+ * enough for values within the bar, and where it is not, the mode is refused. */
+Test(weights_general, slow_roots_beside_a_quick_one)
 {
-    for (int m = 0; m < MODES_COUNT; m++)
-        check_values(&FAMILY[FAMILIES - 1], true, MODES[m], MODES[m] > 34 ? 2e6 : 0.1);
+    for (int k = 0; k < WIDES; k++)
+        for (int m = 0; m < MODES_COUNT; m++)
+            if (k != 1 || MODES[m] * 12 <= 40)
+                check_values(&WIDE[k], false, MODES[m], MODES[m] * 30 <= 80 ? 0.1 : 1);
+    bed b = bed_of(&WIDE[1], false, 21, 1);
+    cr_expect_eq(
+        ves_weights_mode(&b.layout, &b.op, 21, PLACES, b.u, &(ves_table){.weight = b.got, .room = b.room}),
+        VES_UNDETERMINED);
+    bed_free(&b);
+}
+
+/* What 32 digits cannot do: order 12, roots from 1 to 20, curves inside. There the quick members are e^(-950 u)
+ * of the slow ones. Up to n |r| = 680 all is well; at 1000 five digits would be left, and it is refused. */
+Test(weights_general, curves_inside_agree_or_are_refused_where_the_quick_roots_do_not_count)
+{
+    const family *f = &FAMILY[FAMILIES - 1];
+    for (int m = 0; m < MODES_COUNT; m++) {
+        if (MODES[m] <= 34) {
+            check_values(f, true, MODES[m], 0.1);
+            continue;
+        }
+        bed b = bed_of(f, true, MODES[m], 1);
+        cr_expect_eq(ves_weights_mode(&b.layout, &b.op, MODES[m], PLACES, b.u,
+                                      &(ves_table){.weight = b.got, .room = b.room}),
+                     VES_UNDETERMINED);
+        for (int k = 0; k < b.size; k++) cr_assert_eq(b.got[k], 0);
+        bed_free(&b);
+    }
 }
 
 /* Central differences of the MPFR solution with steps of 2^-130 c_0. */
@@ -222,6 +255,12 @@ static void check_slopes(const family *f, bool inside, double mode)
     oracle_free(2 * b.size, w);
     mpfr_clear(by);
     bed_free(&b);
+}
+
+Test(weights_general, derivatives_by_each_coefficient_agree_beside_slow_roots)
+{
+    for (int k = 0; k < WIDES; k++)
+        for (double mode = 1; mode < 3; mode++) check_slopes(&WIDE[k], false, mode);
 }
 
 Test(weights_general, derivatives_by_each_coefficient_agree_up_to_order_8)

@@ -136,8 +136,9 @@ static bool look(const ves_plan *plan, int patch, double n, findings *f)
     double depth = rate(plan, &plan->problem->patch[patch], n) * ves_patch_depth(p);
     if (found.condition > CONDITION || found.lebesgue > SINGULAR * exp(fmin(700, depth))) return true;
     if (n != floor(n) || n > ves_patch_modes(p)) return false;
-    if (found.lebesgue > VES_PATCH_AMPLIFIED && f->first < 0) f->first = (int)n, f->at_first = found.lebesgue;
-    if (found.lebesgue > f->at_worst) f->worst = (int)n, f->at_worst = found.lebesgue;
+    if (found.amplified > VES_PATCH_AMPLIFIED && f->first < 0)
+        f->first = (int)n, f->at_first = found.amplified;
+    if (found.amplified > f->at_worst) f->worst = (int)n, f->at_worst = found.amplified;
     return false;
 }
 

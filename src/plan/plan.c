@@ -370,7 +370,7 @@ ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch)
     for (int k = 0; k < 2 && facts.inside; k++) {
         ves_amplification found;
         ves_patch_amplification(p, k ? facts.modes : 0, &found);
-        facts.amplification[k] = found.lebesgue;
+        facts.amplification[k] = found.amplified;
         facts.condition[k] = found.condition;
     }
     return facts;

@@ -16,6 +16,11 @@ _Static_assert(K % VES_LANES == 0, "rows are whole registers");
 static const double SWITCH = 1.15, NEAR = 0.3, FAR = 2;
 enum { CLEAR = 16 };
 
+/* Roots of a general operator may be of different sizes. Those near 0 want the centred basis, which bears large
+ * ones up to SPREAD; where that is not enough either, fewer than 12 digits are left when a pivot of the
+ * equilibrated matrix is below WEAK. */
+static const double SPREAD = 80, WEAK = 1e-20;
+
 double ves_mode_size(const ves_mode *mode)
 {
     return mode->n * (mode->op->general ? mode->factor.rate : mode->op->parameter[0]);
@@ -25,7 +30,6 @@ static void mode_init(const ves_operator *op, double n, int orders, bool slopes,
 {
     mode->op = op, mode->n = n, mode->orders = orders, mode->slopes = slopes;
     if (op->general) ves_factor_make(op, slopes, &mode->factor);
-    /* roots of a general operator may be of different sizes: those near 0 want the centred one too */
     mode->centred = ves_mode_size(mode) <= SWITCH * op->power + (op->general ? 4 : 0);
     if (mode->centred) ves_mode_center(mode);
 }
@@ -298,11 +302,27 @@ static ves_status condition_find(work *w, double *condition)
     return isfinite(*condition) ? VES_OK : VES_UNDETERMINED;
 }
 
+/* About the slowest root of mode n: 1 / sum of 1 / |r|. */
+static double slowest(const ves_mode *mode)
+{
+    const ves_factor *f = &mode->factor;
+    double sum = f->power > 1 ? f->q[1].hi : 1;
+    return fabs(f->q[0].hi / sum) * ves_mode_size(mode);
+}
+
+/* May either basis be the better one? */
+static bool open(const ves_mode *mode)
+{
+    double size = ves_mode_size(mode), N = mode->op->power;
+    if (mode->op->general) return !mode->centred && size <= SPREAD && slowest(mode) < 1;
+    return mode->op->power > CLEAR && size >= NEAR * N && size <= FAR * N;
+}
+
 /* Where both are possible, the basis with the smaller condition. */
 static void choose(const ves_layout *layout, ves_mode *mode, const work *w)
 {
-    double size = ves_mode_size(mode) / mode->op->power, condition[2];
-    if (mode->op->general || mode->op->power <= CLEAR || size < NEAR || size > FAR) return;
+    double condition[2];
+    if (!open(mode)) return;
     work trial = *w;
     trial.s.parameters = 0, trial.basis.slope = NULL;
     for (int centred = 0; centred < 2; centred++) {
@@ -367,6 +387,13 @@ static bool block_make(const ves_mode *mode, work *w, int nu, const double *u, i
     return good;
 }
 
+static bool weak(const conditions *s)
+{
+    for (int p = 0; p < s->n; p++)
+        if (fabs(entry(s, p, p).hi) < WEAK) return true;
+    return false;
+}
+
 static void clear(const ves_operator *op, int nu, const ves_exact_out *out)
 {
     int parameters = out->slope ? ves_operator_parameters(op) : 0;
@@ -389,7 +416,7 @@ ves_status ves_exact_mode(const ves_layout *layout, const ves_operator *op, doub
     work_init(layout, op, out->orders, slopes, room, &w);
     choose(layout, &mode, &w);
     matrix_fill(layout, &mode, &w);
-    bool good = equilibrate(&w.s) && factor(&w.s);
+    bool good = equilibrate(&w.s) && factor(&w.s) && !(op->general && weak(&w.s));
     for (int block = 0; block < nu && good; block += LANES) good = block_make(&mode, &w, nu, u, block, out);
     if (!good) clear(op, nu, out);
     return good ? VES_OK : VES_UNDETERMINED;

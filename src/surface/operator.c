@@ -7,6 +7,15 @@ int ves_operator_parameters(const ves_operator *op)
     return op->general ? op->power + 1 : 1;
 }
 
+double ves_operator_rate(const ves_operator *op)
+{
+    double rate = 0;
+    if (!op->general) return op->parameter[0];
+    for (int k = 1; k <= op->power; k++)
+        rate = fmax(rate, pow(fabs(op->parameter[k] / op->parameter[0]), 0.5 / k));
+    return rate;
+}
+
 /* A polynomial on [0, 1] by its Bernstein coefficients lies between the smallest and the largest of them. */
 typedef struct piece {
     double b[VES_PARAMETERS_MAX];

@@ -273,7 +273,8 @@ static bool pde_amplification(const ves_patch *patch, double n, ves_amplificatio
     for (int k = 0; k < p->def->operators; k++) {
         ves_amplification one;
         if (ves_weights_amplification(&p->layout, &p->op[k], n, &one) != VES_OK)
-            one = (ves_amplification){HUGE_VAL, HUGE_VAL};
+            one = (ves_amplification){HUGE_VAL, HUGE_VAL, HUGE_VAL};
+        found->amplified = fmax(found->amplified, one.amplified);
         found->lebesgue = fmax(found->lebesgue, one.lebesgue);
         found->condition = fmax(found->condition, one.condition);
     }
@@ -335,7 +336,7 @@ static int harmless(const ves_patch *patch, int most)
     if (ves_layout_depth(&p->layout) == 0) return most;
     while (low < high) {
         int middle = (low + high + 1) / 2;
-        bool good = pde_amplification(patch, middle, &found) && found.lebesgue <= VES_PATCH_AMPLIFIED;
+        bool good = pde_amplification(patch, middle, &found) && found.amplified <= VES_PATCH_AMPLIFIED;
         if (good)
             low = middle;
         else

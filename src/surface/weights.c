@@ -78,23 +78,35 @@ ves_status ves_weights_bind(const ves_layout *layout, const ves_operator *op, in
 
 enum { LOOKS = 256 };
 
+/* Largest |l_j(u)| of condition j. */
+static double largest(const double *weight, int j)
+{
+    double most = 0;
+    for (int i = 0; i < LOOKS; i++) most = fmax(most, fabs(weight[j * LOOKS + i]));
+    return most;
+}
+
 /* Looked for at Chebyshev's places: what conditions inside make grows towards the ends, in layers 1 / lam wide. */
-static ves_status lebesgue(const ves_layout *layout, const ves_operator *op, double n, ves_arena *arena,
-                           double *found)
+static ves_status amplification(const ves_layout *layout, const ves_operator *op, double n, ves_arena *arena,
+                                ves_amplification *found)
 {
     int count = conditions(layout);
     double *weight = ves_arena_doubles(arena, (size_t)(ORDERS * count * LOOKS));
     double *room = ves_arena_doubles(arena, (size_t)ves_weights_room(layout, LOOKS)), u[LOOKS];
-    *found = 0;
+    double lam = fmax(1, n * ves_operator_rate(op));
     if (!weight || !room) return VES_MEMORY;
     for (int i = 0; i < LOOKS; i++) u[i] = (1 - cos(VES_PI * i / (LOOKS - 1))) / 2;
     VES_TRY(ves_weights_mode(layout, op, n, LOOKS, u, &(ves_table){.weight = weight, .room = room}));
+    found->lebesgue = 0;
     for (int i = 0; i < LOOKS; i++) {
         double sum = 0;
         for (int j = 0; j < count; j++)
             if (layout->knot[j].derivative == 0) sum += fabs(weight[j * LOOKS + i]);
-        *found = fmax(*found, sum);
+        found->lebesgue = fmax(found->lebesgue, sum);
     }
+    found->amplified = found->lebesgue;
+    for (int j = 0; j < count; j++)
+        found->amplified = fmax(found->amplified, largest(weight, j) * pow(lam, layout->knot[j].derivative));
     return VES_OK;
 }
 
@@ -103,9 +115,9 @@ ves_status ves_weights_amplification(const ves_layout *layout, const ves_operato
 {
     ves_arena arena = {0};
     double *room = ves_arena_doubles(&arena, (size_t)ves_exact_room(layout, 1));
-    *found = (ves_amplification){HUGE_VAL, HUGE_VAL};
+    *found = (ves_amplification){HUGE_VAL, HUGE_VAL, HUGE_VAL};
     ves_status status = room ? ves_exact_condition(layout, op, n, &found->condition, room) : VES_MEMORY;
-    if (status == VES_OK) status = lebesgue(layout, op, n, &arena, &found->lebesgue);
+    if (status == VES_OK) status = amplification(layout, op, n, &arena, found);
     ves_arena_destroy(&arena);
     return status;
 }

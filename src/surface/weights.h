@@ -60,8 +60,11 @@ ves_status ves_weights_mode(const ves_layout *layout, const ves_operator *op, do
 typedef struct ves_amplification {
     double
         lebesgue; /* max over u of the sum of |l_j(u)| over the function conditions: the size of the surface
-                        that data of size 1 may make, and the digits lost */
-    double condition; /* the condition number of the condition matrix, in the best scaling that it has */
+                        that curves of size 1 may make, and the digits lost */
+    double
+        amplified; /* that, or max |l_j(u)| lam^k of a condition on the k-th derivative, if it is more (lam at
+                         least 1): what is natural is 1 */
+    double condition; /* of the condition matrix */
 } ves_amplification;
 ves_status ves_weights_amplification(const ves_layout *layout, const ves_operator *op, double n,
                                      ves_amplification *found);
