@@ -1,8 +1,9 @@
-/* Weights in double-double: any operator, any conditions, to rounding as far as the conditions themselves
- * allow. Textbook bases lose every digit from order 14 on; the condition numbers of these (basis.h) stay below
- * 1e20, and 32 digits are there for that: 1e-14 of each cardinal function at every order to 40. The limit found: a
- * general operator of order 12 with roots from 1 to 20 and curves inside, at n |r| = 1000
- * (tests/weights_general.c). Called by weights.c. */
+/* Weights in double-double. Textbook bases lose every digit from order 14 on; the condition numbers of these
+ * (basis.h) stay below 1e20, and 32 digits are there for that: 1e-14 of each cardinal function at every order to
+ * 40, as far as the conditions themselves allow. General operators keep the bars while n |r| is at most 80 for
+ * the quickest root, or the slowest is not small; beyond, or with curves inside at order 12 and roots from 1 to
+ * 20, less than 12 digits may be left, and such modes are refused (tests/weights_general.c). Called by
+ * weights.c. */
 #ifndef VES_SURFACE_EXACT_H
 #define VES_SURFACE_EXACT_H
 

@@ -21,8 +21,8 @@ typedef struct ves_operator {
 /* How many numbers an operator has: 1 (a), or N + 1. */
 int ves_operator_parameters(const ves_operator *op);
 
-/* About the largest |r| of mode 1: a; of a general operator max_k |c_k / c_0|^(1/2k), at least 0.7 and at most N
- * times it. */
+/* The largest |r| of mode 1: a; of a general operator max_k |c_k / c_0|^(1/2k), of which it is 1 / sqrt N to
+ * sqrt 2. */
 double ves_operator_rate(const ves_operator *op);
 
 /* Is it elliptic? If not, *t is a place t >= 0 where sum_k c_k t^(N-k) <= 0: in the direction in which

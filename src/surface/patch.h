@@ -48,7 +48,7 @@ typedef struct ves_datum {
 typedef enum ves_spine_kind {
     VES_SPINE_SOLVED,
     VES_SPINE_HERMITE, /* two vectors: the derivatives at u = 0 and u = 1 (eqs 5.5-5.8 as corrected) */
-    VES_SPINE_BSPLINE  /* clamped uniform cubic B-spline; the vectors are its inner control points */
+    VES_SPINE_BSPLINE /* clamped uniform cubic B-spline (of one vector: a parabola); they are its inner control points */
 } ves_spine_kind;
 
 typedef struct ves_spine {

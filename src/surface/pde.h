@@ -37,7 +37,7 @@ typedef struct pde_tables {
     ves_operator made;
     double omega;
     bool fresh, has_slope; /* made, with slopes */
-    ves_status modes_status, status;
+    ves_status modes_status, rest_status, status;
 } pde_tables;
 
 typedef struct pde_chart {

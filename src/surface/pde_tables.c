@@ -46,17 +46,17 @@ ves_status ves_pde_tables_make(const pde *p, int op, int nup, const double *u, b
     bool operator_same = t->fresh && same_operator(&t->made, &p->op[op]);
     bool omega_same = t->fresh && t->omega == p->rest.parameter[0];
     if (operator_same && omega_same && (t->has_slope || !slopes)) return t->status;
-    bool own = slopes && p->op_varies[op];
-    if (!operator_same || (own && !t->has_slope))
-        t->modes_status = ves_weights_bind(&p->layout, &p->op[op], p->modes, nup, u,
-                                           &(ves_table){.weight = t->table,
-                                                        .slope = own ? t->slope : NULL,
-                                                        .room = room,
-                                                        .has_zero = t->fresh && (t->has_slope || !own)});
-    ves_status rest = tail ? rest_make(p, op, nup, u, slopes, t, room) : VES_OK;
+    bool own = slopes && p->op_varies[op], more = slopes && !t->has_slope;
+    bool zero = t->fresh && t->modes_status == VES_OK && (t->has_slope || !own);
+    if (!operator_same || (own && more))
+        t->modes_status = ves_weights_bind(
+            &p->layout, &p->op[op], p->modes, nup, u,
+            &(ves_table){.weight = t->table, .slope = own ? t->slope : NULL, .room = room, .has_zero = zero});
+    bool rest_same = p->def->omega >= 0 ? omega_same : operator_same;
+    if (tail && (!rest_same || more)) t->rest_status = rest_make(p, op, nup, u, slopes, t, room);
     t->made = p->op[op];
     t->omega = p->rest.parameter[0];
     t->has_slope = slopes;
     t->fresh = true;
-    return t->status = t->modes_status == VES_OK ? rest : t->modes_status;
+    return t->status = t->modes_status == VES_OK ? t->rest_status : t->modes_status;
 }
