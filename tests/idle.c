@@ -1,5 +1,6 @@
 /* Variables that do nothing are found, and only they. */
 #include <criterion/criterion.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,15 +19,14 @@ static const char RINGS[] =
     "patches: {wall: {operator: {power: 1, a: 1}, conditions: [{u: 0, position: p}, {u: 1, position: q}]}}\n";
 
 /* Names of what was found, in the order of the file; NULL: it could not be told. */
-static void expect_idle(const char *judged, const char *names)
+static void expect_text(const char *text, const char *judged, const char *names)
 {
-    char text[2000], found[200] = "";
-    snprintf(text, sizeof text, "%s%s", RINGS, judged);
+    char found[200] = "";
     ves_diag *diag = ves_diag_create();
     ves_problem *p;
     ves_plan *plan;
     ves_arena arena = {0};
-    const ves_plan_options options = {{8, 16}};
+    const ves_plan_options options = {{32, 64}};
     bool idle[8];
     cr_assert_eq(ves_problem_read_text("rings", text, strlen(text), NULL, &p, diag), VES_OK, "%s", judged);
     cr_assert_eq(ves_plan_create(p, &options, &plan, diag), VES_OK);
@@ -39,6 +39,13 @@ static void expect_idle(const char *judged, const char *names)
     ves_plan_destroy(plan);
     ves_problem_destroy(p);
     ves_diag_destroy(diag);
+}
+
+static void expect_idle(const char *judged, const char *names)
+{
+    char text[2000];
+    snprintf(text, sizeof text, "%s%s", RINGS, judged);
+    expect_text(text, judged, names);
 }
 
 /* The dilation of a ring along its own axis, and the radius of a ring that no patch ends on. At this start
@@ -65,6 +72,27 @@ Test(idle, what_matters_elsewhere_is_not_idle)
 Test(idle, it_is_not_told_where_nothing_can_be_measured)
 {
     expect_idle("minimize: log(0 - area)\n", NULL);
+}
+
+/* At the bound k = 0 the slope along k is 0 whatever k does, k being squared; and from k = 5 on this surface
+ * folds: what can be measured lies in between. */
+Test(idle, what_starts_near_a_bound_is_not_idle)
+{
+    char text[4000];
+    int at = snprintf(text, sizeof text, "vesica: 1\nvariables: {k: [0, 0.2, 50]}\ncurves:\n");
+    for (int i = 0; i < 8; i++) {
+        at += snprintf(text + at, sizeof text - (size_t)at, "  s%d: {bspline: [", i);
+        for (int j = 0; j < 8; j++) {
+            double r = 1 + 0.3 * sin(1.3 * i), v = 0.785398163 * j;
+            at += snprintf(text + at, sizeof text - (size_t)at, "%s[%.3f, %.3f, %.3f]", j ? ", " : "",
+                           r * cos(v), r * sin(v), 0.4 * i);
+        }
+        at += snprintf(text + at, sizeof text - (size_t)at, "]}\n");
+    }
+    snprintf(text + at, sizeof text - (size_t)at,
+             "patches: {a: {operator: {a: k}, sections: {curves: [s0, s1, s2, s3, s4, s5, s6, s7]}}}\n"
+             "minimize: area\n");
+    expect_text(text, "minimize: area", "");
 }
 
 Test(idle, the_result_says_so)
