@@ -21,6 +21,7 @@ typedef struct item {
     ves_fields f;
     ves_condition *out;
     bool unclear; /* its derivative could not be read */
+    bool nowhere; /* its u could not be read */
 } item;
 
 static const ves_entry *item_table(const place *at)
@@ -112,11 +113,13 @@ static void check_form(const item *i)
 
 /* --- values --- */
 
-static double place_of(const item *i)
+static double place_of(item *i)
 {
     const ves_field *u = ves_fields_field(&i->f, "u");
-    double value = u->node ? ves_reader_constant(i->at->reader, u->node, u->key) : -1;
-    return isnan(value) ? -1 : value;
+    int before = i->at->reader->errors;
+    double value = u->node ? ves_reader_constant(i->at->reader, u->node, u->key) : NAN;
+    i->nowhere = isnan(value) || i->at->reader->errors > before;
+    return value;
 }
 
 static int derivative_of(item *i)
@@ -202,23 +205,25 @@ static void read_condition(const place *at, const ves_node *node, ves_condition 
     out->derivative = derivative_of(&i);
     if (!i.unclear) check_form(&i);
     shares_of(&i, scale_of(&i));
+    if (i.unclear || i.nowhere) out->u = -1; /* nothing more is said of where it stands */
 }
 
 /* --- all of a patch --- */
 
-/* Of those from the first on, with all before them. */
-static void check_twice(ves_reader *reader, const ves_patch_def *patch, int first)
+/* Of those from the first on, with all before them; joins have no line in the patch that would name it. */
+static void check_twice(ves_reader *reader, const ves_patch_def *patch, int first, bool joined)
 {
+    const char *by = joined ? ": by \"joins\", patch " : "", *name = joined ? patch->name : "";
     for (int k = first; k < patch->conditions; k++)
         for (int i = 0; i < k; i++) {
             const ves_condition *a = &patch->condition[i], *b = &patch->condition[k];
             if (a->u != b->u || a->derivative != b->derivative || a->u < 0) continue;
             if (b->derivative > 1)
-                ves_reader_fail(reader, VES_SINGULAR, b->mark, "derivative %d at u = %g is given twice",
-                                b->derivative, b->u);
+                ves_reader_fail(reader, VES_SINGULAR, b->mark, "derivative %d at u = %g is given twice%s%s",
+                                b->derivative, b->u, by, name);
             else
-                ves_reader_fail(reader, VES_SINGULAR, b->mark, "the %s at u = %g is given twice",
-                                b->derivative ? "derivative" : "position", b->u);
+                ves_reader_fail(reader, VES_SINGULAR, b->mark, "the %s at u = %g is given twice%s%s",
+                                b->derivative ? "derivative" : "position", b->u, by, name);
             break;
         }
 }
@@ -249,7 +254,7 @@ static void read_list(const place *at, const ves_node *list, ves_patch_def *patc
     if (before + list->count > VES_CONDITIONS_MAX) return; /* somebody has complained */
     ves_condition *condition = make_room(at->reader, list->count, patch);
     for (int k = 0; condition && k < list->count; k++) read_condition(at, list->item[k], &condition[k]);
-    check_twice(at->reader, patch, before);
+    check_twice(at->reader, patch, before, false);
 }
 
 /* Appends those that joins ask for. */
@@ -259,7 +264,7 @@ static void add_joined(ves_reader *reader, int index, int joined, ves_patch_def 
     if (joined <= 0 || before + joined > VES_CONDITIONS_MAX) return;
     ves_condition *condition = make_room(reader, joined, patch);
     if (condition) ves_reader_joined(reader, index, condition);
-    check_twice(reader, patch, before);
+    check_twice(reader, patch, before, true);
 }
 
 /* ": 4 by sections, 2 by joins", where it is not the list alone that counts. */
@@ -281,6 +286,16 @@ static void check_count(ves_reader *reader, const ves_named *name, int listed, i
     char text[PARTS];
     if (!wanted || found == wanted || joined < 0) return;
     parts(patch->conditions, listed, joined, text);
+    const ves_node *sections = ves_node_find(name->value, "sections");
+    const ves_node *count = !sections                           ? NULL
+                            : ves_node_find(sections, "curves") ? ves_node_find(sections, "curves")
+                                                                : ves_node_find(sections, "count");
+    if (count && found % 2 && found < VES_CONDITIONS_MAX) {
+        ves_reader_error(reader, VES_SINGULAR, count,
+                         "the conditions of patch \"%s\" must be an even number, found %d%s", name->text,
+                         found, text);
+        return;
+    }
     ves_reader_error(reader, VES_SINGULAR, name->word,
                      "patch \"%s\" of order %d needs %d conditions, found %d%s", name->text, wanted, wanted,
                      found, text);

@@ -74,6 +74,15 @@ const ves_term ves_describe_terms[] = {
 #undef POINT
 #undef CHECK
 
+static void list_kind(ves_writer *writer, const ves_key *key)
+{
+    ves_write(writer, "list");
+    if (key->max == key->min)
+        ves_write(writer, " of %g", key->min);
+    else if (!isinf(key->max))
+        ves_write(writer, " of %g to %g", key->min, key->max);
+}
+
 void ves_describe_kind(ves_writer *writer, const ves_key *key)
 {
     static const char *const plain[] = {"",
@@ -111,6 +120,7 @@ void ves_describe_kind(ves_writer *writer, const ves_key *key)
                                            "relation a <= b, a >= b or a == b",
                                            "formula of measures",
                                            "PATCH.u0 or PATCH.u1",
+                                           "number, or list of two",
                                            "later"};
     int kind = (int)key->kind;
     if (kind == VES_CHOICE) {
@@ -122,12 +132,18 @@ void ves_describe_kind(ves_writer *writer, const ves_key *key)
         return;
     }
     if (key->words) ves_write(writer, "%s, or a ", key->words);
-    ves_write(writer, "%s", kind < VES_MAP ? plain[kind] : compound[kind - VES_MAP]);
+    if (kind == VES_LIST && key->max != 0)
+        list_kind(writer, key);
+    else if (kind == VES_LIST && !key->words)
+        ves_write(writer, "list, or one item of it");
+    else
+        ves_write(writer, "%s", kind < VES_MAP ? plain[kind] : compound[kind - VES_MAP]);
 }
 
 static bool number_kind(const ves_key *key)
 {
-    return key->kind == VES_NUMBER || key->kind == VES_COUNT || (int)key->kind == VES_SEED;
+    return key->kind == VES_NUMBER || key->kind == VES_COUNT || (int)key->kind == VES_SEED ||
+           (int)key->kind == VES_PAIR;
 }
 
 void ves_describe_default(ves_writer *writer, const ves_key *key)
@@ -150,6 +166,7 @@ void ves_describe_limits(ves_writer *writer, const ves_key *key)
     bool bounded = key->min != 0 || key->max != 0, above = bounded && !isinf(key->min),
          below = bounded && !isinf(key->max);
     const char *gap = "";
+    if ((int)key->kind == VES_LIST) return; /* its kind tells */
     if (key->min == VES_POSITIVE && below)
         ves_write(writer, "> 0, <= %.12g", key->max);
     else if (key->min == VES_POSITIVE)

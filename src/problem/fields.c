@@ -121,6 +121,15 @@ static bool is_map(ves_reader *reader, const ves_node *node, const ves_fields *f
     return false;
 }
 
+void ves_fields_one_of(ves_reader *reader, const ves_node *node, const ves_fields *fields, const char *what,
+                       const char *a, const char *b)
+{
+    if (ves_fields_find(fields, a) && ves_fields_find(fields, b))
+        ves_reader_error(reader, VES_SYNTAX, node, "\"%s\" has both \"%s\" and \"%s\": give one", what, a, b);
+    else
+        ves_reader_error(reader, VES_SYNTAX, node, "\"%s\" needs one of \"%s\" and \"%s\"", what, a, b);
+}
+
 bool ves_fields_read(ves_reader *reader, const ves_node *node, const ves_entry *table, const char *what,
                      ves_fields *fields)
 {

@@ -70,9 +70,10 @@ static void read_scale(joint *j, int k, const ves_node *node, const ves_key *key
 
 static void read_scales(joint *j, const ves_field *scale)
 {
-    const ves_key *key =
-        &ves_schema_find(ves_schema_find(ves_schema_root.table, "joins")->table->table, "scale")->table->key;
+    ves_key number = *scale->key;
+    const ves_key *key = &number;
     const ves_node *node = scale->node;
+    number.kind = VES_NUMBER;
     if (!node) return;
     if (node->kind != VES_NODE_LIST) {
         read_scale(j, 0, node, key);
@@ -180,6 +181,8 @@ static int curve_of(const ves_reader *reader, const ves_end *end)
     for (int k = 0; k < patch->conditions; k++)
         if (patch->condition[k].u == end->end && patch->condition[k].derivative == 0)
             return patch->condition[k].shares ? patch->condition[k].share[0].curve : -2;
+    for (int k = 0; k < patch->conditions; k++)
+        if (patch->condition[k].u < 0) return -2;
     return patch->conditions ? -1 : -2;
 }
 

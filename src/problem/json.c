@@ -167,6 +167,14 @@ static void algorithms(ves_writer *w)
     ves_write(w, "]");
 }
 
+/* A number in its range. */
+static void limited(ves_writer *w, const ves_key *key)
+{
+    ves_key number = *key;
+    number.kind = VES_NUMBER;
+    leaf(w, &number);
+}
+
 /* One entry of a curve, a move, a measure or a stage: an object with one property. */
 static void one_of(ves_writer *w, const ves_entry *e, const ves_measure *const *plugin)
 {
@@ -193,6 +201,15 @@ static void one_of(ves_writer *w, const ves_entry *e, const ves_measure *const *
 
 static void list(ves_writer *w, const ves_entry *e, const ves_measure *const *plugin)
 {
+    const ves_key *key = &e->key;
+    if (key->max != 0) {
+        ves_write(w, "\"type\":\"array\",");
+        if (key->min > 0) ves_write(w, "\"minItems\":%g,", key->min);
+        if (!isinf(key->max)) ves_write(w, "\"maxItems\":%g,", key->max);
+        ves_write(w, "\"items\":");
+        entry(w, e->table, plugin);
+        return;
+    }
     ves_write(w, "\"anyOf\":[{\"type\":\"array\",\"items\":");
     entry(w, e->table, plugin);
     ves_write(w, "},");
@@ -245,6 +262,16 @@ static void compound(ves_writer *w, const ves_entry *e, const ves_measure *const
             w,
             "\"type\":\"array\",\"minItems\":2,\"items\":{\"type\":\"array\",\"minItems\":2,\"items\":" POINT
             "}");
+        break;
+    case VES_END:
+        ves_write(w, "\"type\":\"string\",\"pattern\":\"\\\\.u[01]$\"");
+        break;
+    case VES_PAIR:
+        ves_write(w, "\"anyOf\":[{");
+        limited(w, &e->key);
+        ves_write(w, "},{\"type\":\"array\",\"minItems\":2,\"maxItems\":2,\"items\":{");
+        limited(w, &e->key);
+        ves_write(w, "}}]");
         break;
     case VES_VARIED:
         ves_write(w, "\"type\":[\"string\",\"array\",\"object\"]");

@@ -140,7 +140,7 @@ static void read_surface(ves_reader *reader, const ves_node *node, const ves_fie
         return;
     const ves_node *formula = ves_fields_find(&f, "formula"), *points = ves_fields_find(&f, "points");
     if (!formula == !points)
-        ves_reader_error(reader, VES_SYNTAX, node, "\"surface\" needs one of \"formula\" and \"points\"");
+        ves_fields_one_of(reader, node, &f, "surface", "formula", "points");
     else if (points)
         read_grid(reader, points, patch);
     if (!formula) return;

@@ -77,7 +77,7 @@ typedef struct ves_share {
 /* d_u^derivative X(u) = scale * sum of factor * curve */
 typedef struct ves_condition {
     ves_mark mark;
-    double u;       /* 0 .. 1 */
+    double u;       /* 0 .. 1; -1: where, or which derivative, is not known, after an error */
     int derivative; /* 0: position, which has one share, with factor 1 */
     int shares;
     const ves_share *share;

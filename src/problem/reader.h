@@ -161,6 +161,9 @@ bool ves_fields_read_keys(ves_reader *reader, const ves_node *node, const ves_ke
 const ves_field *ves_fields_field(const ves_fields *fields, const char *name); /* NULL: not in the table */
 const ves_node *ves_fields_find(const ves_fields *fields, const char *name);   /* NULL: not given */
 bool ves_fields_excused(const ves_fields *fields, const char *name);
+/* complains of both or neither of two keys that stand for each other */
+void ves_fields_one_of(ves_reader *reader, const ves_node *node, const ves_fields *fields, const char *what,
+                       const char *a, const char *b);
 
 /* names.c; formulas: the names stand in formulas */
 void ves_names_read(ves_reader *reader, const ves_node *section, const char *what, bool formulas,

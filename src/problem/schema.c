@@ -51,7 +51,7 @@ static const ves_entry curve[] = {
 
 static const ves_entry operator_keys[] = {
     {{"power", VES_COUNT, .min = 1, .max = VES_POWER_MAX, .fallback = NAN, .about = "N of (d_uu + a^2 d_vv)^N X = 0, an equation of order 2N: it needs 2N conditions; with sections the power may be left out"}, "power: 2", NULL},
-    {{"a", VES_NUMBER, .unit = "1", .min = 0, .max = 1e6, .fallback = 1, .about = "smoothing parameter: how fast the ends are forgotten inside; 0 is straight or cubic in u"}, "a: 0.925", NULL},
+    {{"a", VES_NUMBER, .unit = "1", .min = 0, .max = 1e6, .fallback = 1, .about = "smoothing parameter: how fast the ends are forgotten inside; 0 is a polynomial of degree 2N - 1 in u, straight for N = 1, cubic for N = 2"}, "a: 0.925", NULL},
     {{"coefficients", VES_NUMBERS, .unit = "1", .about = "[c0, ..., cN] instead of power and a, N = 1 to 6: c0 d_u^(2N) X + c1 d_u^(2N-2) d_v^2 X + ... + cN d_v^(2N) X = 0; it must be elliptic, c0 t^N + c1 t^(N-1) + ... + cN > 0 for all t >= 0, as it is when all are positive"}, "coefficients: [1, 2, 1]", NULL},
     {{"x", VES_NUMBERS, .unit = "1", .about = "with y and z: coefficients as above, for each coordinate its own"}, "x: [1, 2, 1]", NULL},
     {{"y", VES_NUMBERS, .unit = "1", .about = "as x"}, "y: [1, 2, 1]", NULL},
@@ -69,7 +69,7 @@ static const ves_entry condition_keys[] = {
     {{"field", VES_CURVE, .about = "d_u^k X = scale * field"}, "field: ring", NULL},
     {{"from", VES_CURVE, .about = "with `to`: d_u^k X = scale * (to - from)"}, "from: p1", NULL},
     {{"to", VES_CURVE, .about = "with `from`: d_u^k X = scale * (to - from)"}, "to: d1", NULL},
-    {{"differences", KIND(VES_LIST), .about = "k + 1 curves [p0, ..., pk] for derivative k, as drawn one behind the other along u: d_u^k X = scale * their k-th difference, p1 - p0, p2 - 2 p1 + p0, ...; a scale of 1/h^k makes it the derivative when they are h apart"}, "differences: [p1, p2, p3]", difference},
+    {{"differences", KIND(VES_LIST), .min = 1, .max = VES_CONDITIONS_MAX, .about = "k + 1 curves [p0, ..., pk] for derivative k, as drawn one behind the other along u: d_u^k X = scale * their k-th difference, p1 - p0, p2 - 2 p1 + p0, ...; a scale of 1/h^k makes it the derivative when they are h apart"}, "differences: [p1, p2, p3]", difference},
     {{"scale", VES_NUMBER, .fallback = 1, .about = "length of the derivative"}, "scale: 2", NULL},
     END};
 
@@ -83,7 +83,7 @@ static const ves_entry departure_keys[] = {
     {{"field", VES_CURVE, .about = "d_u^k X departs by scale * field"}, "field: bend", NULL},
     {{"from", VES_CURVE, .about = "with `to`: by scale * (to - from)"}, "from: p1", NULL},
     {{"to", VES_CURVE, .about = "with `from`: by scale * (to - from)"}, "to: d1", NULL},
-    {{"differences", KIND(VES_LIST), .about = "by scale times the k-th difference of k + 1 curves"}, "differences: [p1, p2, p3]", difference},
+    {{"differences", KIND(VES_LIST), .min = 1, .max = VES_CONDITIONS_MAX, .about = "by scale times the k-th difference of k + 1 curves"}, "differences: [p1, p2, p3]", difference},
     {{"scale", VES_NUMBER, .fallback = 1, .about = "how much of it"}, "scale: 0.5", NULL},
     END};
 
@@ -121,19 +121,19 @@ static const ves_entry section_curve[] = {
 
 static const ves_entry sections_keys[] = {
     {{"of", VES_CURVE, .about = "the family that is sampled, at w = from + u (to - from)"}, "of: sec", NULL},
-    {{"w", KIND(VES_SPAN), .about = "[from, to]: what the family's number runs over, whatever its name; may vary"}, "w: [0, 2*pi]", NULL},
+    {{"w", KIND(VES_SPAN), .about = "[from, to]: what the family's number runs over, whatever its name; may vary. Patches that end on the same section meet there: at equal numbers or, of those that vary, at numbers written alike"}, "w: [0, 2*pi]", NULL},
     {{"count", VES_COUNT, .min = 2, .max = VES_CONDITIONS_MAX, .fallback = NAN, .about = "how many sections of the family"}, "count: 40", NULL},
-    {{"curves", KIND(VES_LIST), .about = "instead of of, w and count: the curves themselves, from u = 0 to u = 1"}, "curves: [p1, p2, p3, p4]", section_curve},
+    {{"curves", KIND(VES_LIST), .min = 2, .max = VES_CONDITIONS_MAX, .about = "instead of of, w and count: the curves themselves, from u = 0 to u = 1"}, "curves: [p1, p2, p3, p4]", section_curve},
     {{"nodes", VES_CHOICE, .words = "chebyshev|equal", .about = "where they stand: section i of 0 ... K - 1 at u = (1 - cos(pi i/(K - 1)))/2, or equally spaced, which from some ten sections on swings wildly between them"}, "nodes: chebyshev", NULL},
     END};
 
 static const ves_entry patch_keys[] = {
     {{"operator", KIND(VES_MAP), .about = "the partial differential equation: (d_uu + a^2 d_vv)^power X = 0, or one with coefficients"}, "operator: {power: 2, a: 1}", operator_keys},
-    {{"conditions", KIND(VES_LIST), .about = "what the surface meets, at its ends and inside: as many as the order, 2 * power, with sections and those that joins give, none of them twice"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
+    {{"conditions", KIND(VES_LIST), .max = HUGE_VAL, .about = "what the surface meets, at its ends and inside: as many as the order, 2 * power, with sections and those that joins give, none of them twice"}, "conditions: [{u: 0, position: p1}, {u: 1, position: p2}]", condition},
     {{"sections", KIND(VES_MAP), .about = "curves that the surface passes through, placed along u: each is a condition, and the order of the equation follows from how many there are, with a = 1 unless operator says it"}, "sections: {of: sec, w: [0, 2*pi], count: 40}", sections_keys},
     {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "how many Fourier modes are solved one by one; 0: chosen, see remainder, which may have it instead"}, "modes: 8", NULL},
     {{"remainder", KIND(VES_MAP), .about = "what becomes of the modes of the data beyond those that are solved: all of them cross the patch as one mode would, with lam = omega, so that every condition is met exactly; the equation is not, there. Conditions inside a patch amplify fine detail beyond all bounds, and this is what tames it"}, "remainder: {modes: 6, omega: auto}", remainder_keys},
-    {{"raise", KIND(VES_LIST), .about = "conditions that raise the order, two for each power, and say how far the surface departs there from that of the lower order: by field, from and to, or differences at a derivative that is still free, or by nothing at all, which means 0; while all are 0 the surface is that of the lower order, with as many modes solved (only with power)"}, "raise: [{u: 0, derivative: 2, field: bend}, {u: 1, derivative: 2}]", raised},
+    {{"raise", KIND(VES_LIST), .min = 2, .max = HUGE_VAL, .about = "conditions that raise the order, two for each power, and say how far the surface departs there from that of the lower order: by field, from and to, or differences at a derivative that is still free, or by nothing at all, which means 0; while all are 0 the surface is that of the lower order, with as many modes solved (only with power)"}, "raise: [{u: 0, derivative: 2, field: bend}, {u: 1, derivative: 2}]", raised},
     {{"spine", KIND(VES_MAP), .about = "the centre line, instead of the one that the equation gives: what the mean over v of the surface is at each u; it runs from the middle of the end curve at u = 0 to that at u = 1, wherever they go"}, "spine: {hermite: [[0, 0, 1], [1, 0, 0]]}", spine_keys},
     {{"surface", KIND(VES_MAP), .about = "instead of operator and conditions: the surface itself; edges of it that lie on each other are joined, but not with those of other patches"}, "surface: {formula: [u, v, \"u*v\"]}", surface_keys},
     {{"periodic", VES_FLAG, .fallback = 1, .about = "the surface closes in v (only with surface)"}, "periodic: false", NULL},
@@ -158,14 +158,10 @@ static const ves_entry end[] = {
     {{"end", KIND(VES_END), .about = "an end of a patch: its name, then .u0 or .u1"}, "wall.u0", NULL},
     END};
 
-static const ves_entry join_scale[] = {
-    {{"scale", VES_NUMBER, .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 1, .about = "a length of the derivative"}, "1.5", NULL},
-    END};
-
 static const ves_entry join_keys[] = {
-    {{"ends", KIND(VES_LIST), .required = true, .about = "the two ends"}, "ends: [top.u1, side.u0]", end},
+    {{"ends", KIND(VES_LIST), .min = 2, .max = 2, .required = true, .about = "the two ends"}, "ends: [top.u1, side.u0]", end},
     {{"tangent", VES_CURVE, .required = true, .about = "X_u = scale * tangent at the first end; so at the second, where u = 0 meets u = 1, and -scale * tangent where both are u = 0 or both u = 1: one condition of each patch"}, "tangent: tilt", NULL},
-    {{"scale", KIND(VES_LIST), .about = "more than 0: one number, 1 unless given, which makes the surface once (with bend twice) continuously differentiable; or one for each end, which keeps the tangent planes (with bend the curvatures) together"}, "scale: [m1, m2]", join_scale},
+    {{"scale", KIND(VES_PAIR), .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 1, .about = "one number, which makes the surface once (with bend twice) continuously differentiable; or one for each end, which keeps the tangent planes (with bend the curvatures) together"}, "scale: [m1, m2]", NULL},
     {{"bend", VES_CURVE, .about = "X_uu = scale^2 * bend at both ends: one more condition of each patch"}, "bend: arch", NULL},
     END};
 
@@ -274,7 +270,7 @@ static const ves_entry root[] = {
     {{"curves", KIND(VES_NAMED), .about = "closed curves, and fields along them"}, "curves: {p1: {circle: {radius: 1}}}", curve},
     {{"modes", VES_COUNT, .min = 1, .max = 4096, .fallback = VES_CURVE_MODES, .about = "most Fourier modes of a curve"}, "modes: 64", NULL},
     {{"patches", KIND(VES_NAMED), .required = true, .about = "surfaces between curves"}, "patches: {wall: {operator: {power: 1}, conditions: [{u: 0, position: p1}, {u: 1, position: p2}]}}", patch},
-    {{"joins", KIND(VES_LIST), .about = "ends that lie on one curve and go on smoothly into each other: the conditions on the derivatives there, of both patches, come from one field"}, "joins: [{ends: [top.u1, side.u0], tangent: tilt, scale: [m1, m2], bend: arch}]", join},
+    {{"joins", KIND(VES_LIST), .max = HUGE_VAL, .about = "ends that lie on one curve and go on smoothly into each other: the conditions on the derivatives there, of both patches, come from one field"}, "joins: [{ends: [top.u1, side.u0], tangent: tilt, scale: [m1, m2], bend: arch}]", join},
     {{"places", KIND(VES_NAMED), .about = "named points of patches"}, "places: {tip: {patch: wall, u: 0.5, v: pi}}", place},
     {{"shape", KIND(VES_MAP), .about = "how the patches form one shape"}, "shape: {closed: true, caps: [wall.u0, wall.u1]}", shape_keys},
     {{"scale", KIND(VES_MAP), .about = "scales the whole shape about the origin so that an equation holds exactly"}, "scale: {equation: area == 4*pi}", scale_keys},

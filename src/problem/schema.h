@@ -10,9 +10,10 @@
 
 /* Kinds of entries besides those of vesica/field.h. */
 enum {
-    VES_MAP = 64,  /* the keys of `table` */
-    VES_NAMED,     /* any names, each like table[0] */
-    VES_LIST,      /* each item like table[0]; a single item may stand without its list */
+    VES_MAP = 64, /* the keys of `table` */
+    VES_NAMED,    /* any names, each like table[0] */
+    VES_LIST, /* each item like table[0]: min .. max of them; both 0: any number of them, and a single item
+                      may stand without its list */
     VES_INTERVAL,  /* [min, start, max] */
     VES_SPAN,      /* [from, to] */
     VES_GRID,      /* rows of points */
@@ -29,6 +30,7 @@ enum {
     VES_RELATION,  /* a <= b, a >= b, a == b of such formulas; or the keys of `table` */
     VES_CHECK,     /* such a formula that must hold */
     VES_END,       /* an end of a patch: wall.u0 */
+    VES_PAIR,      /* one number, or a list of two */
     VES_LATER      /* a word that a later version will understand; `about` says as what */
 };
 

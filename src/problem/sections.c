@@ -43,8 +43,8 @@ typedef struct sections {
     /* of a family */
     int family;
     const ves_node *bound[2];
-    double value[2]; /* of the bounds, where both are constant */
-    bool varies;
+    double value[2]; /* of those that are constant */
+    bool varies[2];
 } sections;
 
 /* Chebyshev's nodes, whose Lebesgue number stays small [docs/errata.md, Fig. 4.5]; the last mirror the first. */
@@ -81,11 +81,12 @@ static void pass_through(sections *s, int i, const ves_node *node, int curve)
 
 /* --- of a family --- */
 
-/* The formula of the family's number at u. */
+/* The formula of the family's number at u; at an end, of that bound alone. */
 static const ves_formula *number(sections *s, double u)
 {
     ves_reader *reader = s->reader;
-    if (!s->varies) return ves_formula_constant((1 - u) * s->value[0] + u * s->value[1], reader->arena);
+    bool first = s->varies[0] && u < 1, last = s->varies[1] && u > 0;
+    if (!first && !last) return ves_formula_constant((1 - u) * s->value[0] + u * s->value[1], reader->arena);
     ves_node word = *s->bound[0];
     word.kind = VES_NODE_WORD;
     word.plain = true;
@@ -133,14 +134,15 @@ static int make(sections *s, int i)
     return reader->curves_read++;
 }
 
-/* Patches that end on the same section meet there: it is one curve. */
+/* Patches that end on the same section meet there: it is one curve. Numbers that vary are the same when they
+ * are written alike. */
 static int end(sections *s, int i)
 {
     ves_reader *reader = s->reader;
     int side = i > 0;
     const ves_section own = {.family = s->family,
-                             .text = s->varies ? s->bound[side]->text : NULL,
-                             .at = s->varies ? 0 : s->value[side]};
+                             .text = s->varies[side] ? s->bound[side]->text : NULL,
+                             .at = s->varies[side] ? 0 : s->value[side]};
     for (int k = 0; k < reader->sections; k++) {
         const ves_section *other = &reader->section[k];
         bool same = own.text && other->text ? !strcmp(own.text, other->text)
@@ -167,7 +169,7 @@ static bool read_bounds(sections *s, const ves_node *node)
         const ves_formula *formula = ves_reader_number(reader, node->item[k], &key);
         s->bound[k] = node->item[k];
         s->value[k] = ves_reader_value(reader, formula);
-        s->varies = s->varies || ves_reader_varies(reader, formula);
+        s->varies[k] = ves_reader_varies(reader, formula);
     }
     return reader->errors == before;
 }
@@ -246,7 +248,7 @@ int ves_reader_sections(ves_reader *reader, const ves_node *node, ves_condition 
     if (nodes->node) s.equal = ves_reader_choice(reader, nodes->node, nodes->key);
     if (ves_fields_excused(&s.f, "of") || ves_fields_excused(&s.f, "curves")) return 0;
     if (!of == !curves)
-        ves_reader_error(reader, VES_SYNTAX, node, "\"sections\" need one of \"of\" and \"curves\"");
+        ves_fields_one_of(reader, node, &s.f, "sections", "of", "curves");
     else if (of)
         read_family(&s, of);
     else

@@ -3,11 +3,13 @@
 
 enum { INNER_MOST = 100 }; /* inner control points */
 
+/* Or somewhere that is not known, after an error. */
 static bool position_at(const ves_patch_def *patch, double u)
 {
     int own = 2 * (patch->lower ? patch->lower : patch->power);
     for (int k = 0; k < own && k < patch->conditions; k++)
-        if (patch->condition[k].u == u && patch->condition[k].derivative == 0) return true;
+        if ((patch->condition[k].u == u && patch->condition[k].derivative == 0) || patch->condition[k].u < 0)
+            return true;
     return false;
 }
 
@@ -51,8 +53,7 @@ void ves_reader_spine(ves_reader *reader, const ves_field *field, ves_patch_def 
     const ves_field *hermite = ves_fields_field(&f, "hermite"), *bspline = ves_fields_field(&f, "bspline");
     if (hermite->excused || bspline->excused) return;
     if (!hermite->node == !bspline->node) {
-        ves_reader_error(reader, VES_SYNTAX, field->node,
-                         "\"spine\" needs one of \"hermite\" and \"bspline\"");
+        ves_fields_one_of(reader, field->node, &f, "spine", "hermite", "bspline");
         return;
     }
     if (patch->power && (!position_at(patch, 0) || !position_at(patch, 1)))
