@@ -21,6 +21,7 @@ typedef struct task {
     int escapes, halves; /* saddles; those that were left to one side only */
     int mostly;          /* along which variable the first was */
     int edges, edge;     /* ends beside what cannot be measured; along which variable, at the first */
+    ves_status beyond;   /* there: why not */
     bool running;        /* at one of them the value has not stopped falling */
     bool memory;
 } task;
@@ -76,11 +77,9 @@ static bool lower(const task *t, const ves_verdict *end, const ves_verdict *sadd
 
 static void note_edge(task *t)
 {
-    if (!t->edges++) t->edge = t->saddle.edge;
-    if (!t->running && t->saddle.running) {
-        t->running = true;
-        t->edge = t->saddle.edge;
-    }
+    bool runs = t->saddle.running && !t->running;
+    if (!t->edges++ || runs) t->edge = t->saddle.edge, t->beyond = t->saddle.beyond;
+    t->running = t->running || runs;
 }
 
 /* One descent and what follows from it. */
@@ -168,12 +167,13 @@ static void note_edges(polish *p)
         if (!first || (t->running && !first->running)) first = t;
     }
     if (!met) return;
-    ves_session_note(
-        p->session,
-        "%d of %d polish%s ended beside designs that cannot be measured (along %s): whether at a "
-        "saddle could not be judged%s",
-        met, p->tasks, p->tasks == 1 ? "" : "es", name_variable(p->session, first->edge),
-        first->running ? ", and the value runs into that edge: the optimum may lie beyond it" : "");
+    ves_session_note(p->session,
+                     "%d of %d polish%s ended beside designs that cannot be measured (along %s: %s): whether "
+                     "at a saddle could not be judged%s",
+                     met, p->tasks, p->tasks == 1 ? "" : "es", name_variable(p->session, first->edge),
+                     ves_status_text(first->beyond),
+                     first->running ? ", and the value runs into that edge: the optimum may lie beyond it"
+                                    : "");
 }
 
 static void note_stalls(polish *p)

@@ -207,7 +207,7 @@ static ves_status slope_at(ves_saddle *s, ves_descent *d, int i, double *h, doub
     if (d->last.status == VES_OK)
         lagrangian_slope(s, d, slope);
     else
-        s->edge = i;
+        s->edge = i, s->beyond = d->last.status;
     return VES_OK;
 }
 

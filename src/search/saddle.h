@@ -28,7 +28,8 @@ typedef struct ves_saddle {
     bool way[2];                      /* which sides of it the constraints and walls leave open */
     int edge; /* the variable along which there are designs that cannot be measured next to the point: then
                  it cannot be judged; -1: none */
-    bool running; /* there the value still falls or rises: no minimum of its own */
+    ves_status beyond; /* what is wrong with these */
+    bool running;      /* there the value still falls or rises: no minimum of its own */
     bool stalled; /* away from any edge the slope has not vanished: no stationary point of a smooth value */
 } ves_saddle;
 
