@@ -124,6 +124,15 @@ Test(schema, explain_knows_every_word)
                                          {"power", "whole number (1 .. 20)"},
                                          {"jacobian", "positive or any, default positive"}};
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) expect_explained(row[k][0], row[k][1]);
+    /* what check says of joints and of conditions inside */
+    static const char *const joint[] = {"joint", "joints", "C0", "G1",   "G2",
+                                        "C1",    "C1 G2",  "C2", "open", "crease"};
+    for (size_t k = 0; k < sizeof joint / sizeof *joint; k++) expect_explained(joint[k], "joint");
+    expect_explained("C0", "0.001 degrees");
+    expect_explained("C2", "within 1e-4");
+    expect_explained("amplified", "Lebesgue");
+    expect_explained("lebesgue", "remainder");
+    expect_explained("chebyshev", "sections.nodes");
 }
 
 Test(schema, explain_suggests_a_word_for_one_that_it_does_not_know)

@@ -38,6 +38,30 @@ const char ves_describe_units[] =
 
 #define POINT "a name at the points of the surface"
 #define CHECK "a name in the checks of expect"
+#define JOINT "a word of check and of results, on joints"
+#define JOINED                                                                                               \
+    "where ends of patches lie on one curve, or a surface meets itself; every two of them are a joint. "     \
+    "Both sides have there\n"                                                                                \
+    "      open   not even the same points\n"                                                                \
+    "      C0     the same points, within 1e-9 of the curve's radius\n"                                      \
+    "      G1     and the same normals, within 0.001 degrees: no crease\n"                                   \
+    "      G2     and the same curvature across, within 1e-4 of it: highlights do not break\n"               \
+    "      C1     G1, and the same X_u (or opposite ones, where ends of one kind meet), within 1e-5 of it\n" \
+    "      C1 G2  both of these\n"                                                                           \
+    "      C2     C1, G2, and the same X_uu, within 1e-4\n"                                                  \
+    "      What is better than C0 comes from `joins`, or from conditions that agree: both sides a "          \
+    "derivative from one field (with one\n"                                                                  \
+    "      scale C1, else G1), for G2 and C2 the second derivative as well"
+#define AMPLIFIED                                                                                            \
+    "the size of the surface that curves of size 1 may make, of mode 0 and of the highest mode that is "     \
+    "solved (Lebesgue's number). Fine\n"                                                                     \
+    "      detail of conditions inside a patch grows like e^(a n u) on the way to its ends; the condition "  \
+    "number tells how many digits that\n"                                                                    \
+    "      costs. Where mode 0 is large, move the places towards the ends (nodes: chebyshev); where the "    \
+    "highest is, solve fewer modes: the\n"                                                                   \
+    "      others go into the remainder"
+#define REMAINDER "remainder: {modes: 6, omega: auto}"
+#define JOINS     "joins: [{ends: [top.u1, side.u0], tangent: tilt, bend: arch}]"
 const ves_term ves_describe_terms[] = {
     {"x", POINT, "the first coordinate; x, y, z are lengths", "far: {max: \"sqrt(x^2 + y^2 + z^2)\"}"},
     {"y", POINT, "the second coordinate, the direction of height", "top: {max: y}"},
@@ -68,11 +92,42 @@ const ves_term ves_describe_terms[] = {
      "an optimum from which a direction of negative curvature leads lower: no minimum; searches leave it "
      "where they can",
      "polish: {escape: true}"},
+    {"joint", JOINT, JOINED, JOINS},
+    {"joints", JOINT, JOINED, JOINS},
+    {"open", JOINT,
+     "the two sides do not even have the same points (within 1e-9 of the curve's radius), though both end on "
+     "the curve: conditions\n"
+     "      inside a patch amplify rounding that much. Fewer modes (remainder: {modes: 6}) or Chebyshev "
+     "places "
+     "help; see amplified",
+     "remainder: {modes: 6}"},
+    {"C0", JOINT,
+     "the two sides have the same points and a crease between them, whose largest angle is told (G1 begins "
+     "at 0.001 degrees), or one of\n"
+     "      them has no tangent plane somewhere; `joins` make it smooth; see joints",
+     JOINS},
+    {"crease", JOINT,
+     "how far the surface turns at a joint that is not smooth: the largest angle between the normals of its "
+     "two sides. From 0.001 degrees\n"
+     "      on the joint is C0, not G1; `joins` make it smooth",
+     JOINS},
+    {"G1", JOINT, JOINED, JOINS},
+    {"G2", JOINT, JOINED, JOINS},
+    {"C1", JOINT, JOINED, JOINS},
+    {"C1 G2", JOINT, JOINED, JOINS},
+    {"C2", JOINT, JOINED, JOINS},
+    {"amplified", "a word of check, on patches with conditions inside", AMPLIFIED, REMAINDER},
+    {"lebesgue", "the number that check lists as amplified", AMPLIFIED, REMAINDER},
     {"hits", "a word of results", "how many descents ended in an optimum (screen: found ... times)",
      "result.json: optima[0].hits"},
     {0}};
 #undef POINT
 #undef CHECK
+#undef JOINT
+#undef JOINED
+#undef JOINS
+#undef AMPLIFIED
+#undef REMAINDER
 
 static void list_kind(ves_writer *writer, const ves_key *key)
 {

@@ -115,7 +115,8 @@ static void walk(help *h, const ves_entry *table, const char *path)
         ves_memory_free(w.text);
         is_word(h, e->key.name);
         bool again = !strncmp(inner, "test.", 5) && strncmp(h->word, "test", 4); /* as without it */
-        if (is_path(h->word, inner) && !(again && h->found)) entry_help(h, e, inner);
+        bool choice = e->key.kind == VES_CHOICE && ves_words_find(e->key.words, h->word) >= 0;
+        if ((choice || is_path(h->word, inner)) && !(again && h->found)) entry_help(h, e, inner);
         if (*path && h->parent && is_path(h->parent, path) && !again) key_name(h, e->key.name);
         bool item = (int)e->key.kind == VES_LIST || (int)e->key.kind == VES_NAMED;
         const ves_entry *below = item && e->table ? e->table->table : e->table;
