@@ -46,6 +46,14 @@ static void compare(const ves_problem *p, const double *slope, bool *idle)
             idle[k] = false;
 }
 
+static bool any(const bool *idle, int count)
+{
+    for (int k = 0; k < count; k++)
+        if (idle[k]) return true;
+    return false;
+}
+
+/* Only as long as some variable may be idle: a gradient may take seconds. */
 bool ves_study_idle(ves_plan *plan, const ves_problem *p, ves_arena *arena, bool *idle)
 {
     size_t n = (size_t)p->variables, m = (size_t)p->constraints;
@@ -57,7 +65,7 @@ bool ves_study_idle(ves_plan *plan, const ves_problem *p, ves_arena *arena, bool
     if (!ves_plan_search(&plan, 1).gradients) return false;
     for (int k = 0; k < p->variables; k++) idle[k] = !named(p, k);
     int seen = 0;
-    for (int t = 0; t < TRIES && seen < ENOUGH; t++) {
+    for (int t = 0; t < TRIES && seen < ENOUGH && any(idle, p->variables); t++) {
         ves_random random = {.step = (uint64_t)t};
         ves_ask ask = {.x = x, .cutoff = HUGE_VAL, .want = VES_WANT_GRADIENT};
         draw(p, &random, t % 2 ? 1 : AWAY * exp2(-t / HALVED), x);
@@ -67,7 +75,7 @@ bool ves_study_idle(ves_plan *plan, const ves_problem *p, ves_arena *arena, bool
         for (int k = 0; k < p->constraints; k++) compare(p, verdict.jacobian + (size_t)k * n, idle);
         seen++;
     }
-    return seen == ENOUGH;
+    return seen == ENOUGH || !any(idle, p->variables);
 }
 
 static bool same(double a, double b)
