@@ -279,6 +279,25 @@ Test(weights_general, derivatives_by_each_coefficient_agree_to_order_12)
         if (operator_of(&FAMILY[k], 1).power > 4) check_slopes(&FAMILY[k], false, mode[k % 4]);
 }
 
+/* What is fixed costs nothing and leaves the slopes by the others as they were, to the last bit. */
+Test(weights_general, slopes_do_not_feel_what_is_fixed)
+{
+    for (int k = 0; k < FAMILIES; k++) {
+        bed b = bed_of(&FAMILY[k], false, 13, 1);
+        int N = b.op.power, moving = N / 2;
+        double *all = calloc((size_t)((N + 1) * b.size), sizeof *all);
+        ves_weights_mode(&b.layout, &b.op, 13, PLACES, b.u,
+                         &(ves_table){.weight = b.got, .slope = all, .room = b.room});
+        b.op.fixed = ~(1U << moving);
+        ves_weights_mode(&b.layout, &b.op, 13, PLACES, b.u,
+                         &(ves_table){.weight = b.got, .slope = b.slope, .room = b.room});
+        cr_expect(memcmp(all + moving * b.size, b.slope + moving * b.size, sizeof *all * (size_t)b.size) == 0,
+                  "%s", FAMILY[k].name);
+        free(all);
+        bed_free(&b);
+    }
+}
+
 /* Mode 0 does not know the operator: a polynomial, and no slopes. */
 Test(weights_general, mode_zero_is_polynomial)
 {

@@ -99,7 +99,7 @@ static void slopes_make(const ves_operator *op, const ves_two b[], ves_factor *f
     jacobian(f, a);
     ves_two_solve(N, a, N + 1, r);
     for (int i = 0; i <= N; i++)
-        for (int k = 0; k < N; k++) f->slope[i][k] = r[k][i];
+        for (int k = 0; k < N; k++) f->slope[i][k] = op->fixed >> i & 1 ? ves_two_of(0) : r[k][i];
 }
 
 void ves_factor_make(const ves_operator *op, bool slopes, ves_factor *f)

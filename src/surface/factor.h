@@ -12,7 +12,8 @@ typedef struct ves_factor {
     int power;
     double rate;                /* the largest |r| is 1 / (2 sqrt N) to sqrt 2 of it */
     ves_two q[VES_GENERAL_MAX]; /* Q(r) = r^N + sum_k q_k r^k, r in units of rate */
-    ves_two slope[VES_PARAMETERS_MAX][VES_GENERAL_MAX]; /* dq_k / dc_i, rate held */
+    ves_two slope[VES_PARAMETERS_MAX]
+                 [VES_GENERAL_MAX]; /* dq_k / dc_i, rate held; 0 for those that are fixed */
 } ves_factor;
 
 /* By Newton's iteration on P = Q(r) Q(-r) from a polynomial with its roots on the left, where all iterates

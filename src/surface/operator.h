@@ -16,6 +16,8 @@ typedef struct ves_operator {
     int power; /* N: 1 .. VES_POWER_MAX; general: 1 .. VES_GENERAL_MAX */
     bool general;
     double parameter[VES_PARAMETERS_MAX]; /* a; general: c_0 .. c_N */
+    unsigned
+        fixed; /* bit k: nobody asks for slopes by parameter k, and what a table has for them means nothing */
 } ves_operator;
 
 /* How many numbers an operator has: 1 (a), or N + 1. */

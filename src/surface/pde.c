@@ -361,8 +361,11 @@ static bool varies_find(pde *p, const ves_bound *bound)
     const ves_pde *def = p->def;
     bool varies = p->omega_varies = number_varies(bound, def->omega);
     for (int k = 0; k < def->operators; k++)
-        for (int i = 0; i < p->parameters; i++)
-            p->op_varies[k] = p->op_varies[k] || number_varies(bound, def->parameter[k] + i);
+        for (int i = 0; i < p->parameters; i++) {
+            bool moves = number_varies(bound, def->parameter[k] + i);
+            p->op_varies[k] = p->op_varies[k] || moves;
+            if (!moves) p->op[k].fixed |= 1U << i;
+        }
     for (int k = 0; k < def->operators; k++) varies = varies || p->op_varies[k];
     for (int j = 0; j < p->conditions; j++) {
         varies = varies || number_varies(bound, def->datum[j].scale);

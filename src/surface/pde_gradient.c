@@ -161,7 +161,8 @@ void ves_pde_unbind(ves_patch *patch, const ves_bound *bound, double *number_adj
     ves_pde_spine_unbind(p, number_adjoint);
     for (int k = 0; k < def->operators; k++)
         for (int i = 0; i < p->parameters; i++)
-            number_adjoint[def->parameter[k] + i] += p->parameter_adjoint[k][i];
+            if (!(p->op[k].fixed >> i & 1))
+                number_adjoint[def->parameter[k] + i] += p->parameter_adjoint[k][i];
     if (def->omega >= 0) number_adjoint[def->omega] += p->omega_adjoint;
     for (int j = 0; j < p->conditions; j++) {
         const ves_datum *d = &def->datum[j];

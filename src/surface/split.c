@@ -46,6 +46,14 @@ static void scale(int N, ves_twos by, square *a)
         for (int j = 0; j < N; j++) a->e[i][j] = ves_twos_multiply(a->e[i][j], by);
 }
 
+/* Where q does not move with a parameter, nothing does: most of the time goes into slopes. */
+static bool still(const ves_factor *f, int p)
+{
+    for (int k = 0; k < f->power; k++)
+        if (f->slope[p][k].hi != 0) return false;
+    return true;
+}
+
 /* Horner: R = I + h A / j R, and dR = h / j (dA R + A dR). */
 static void taylor(const ves_factor *f, int parameters, ves_twos h, square *e, square *slope)
 {
@@ -59,6 +67,7 @@ static void taylor(const ves_factor *f, int parameters, ves_twos h, square *e, s
     for (int j = TERMS; j >= 1; j--) {
         ves_twos by = ves_twos_times(h, ves_two_inverse(j));
         for (int p = 0; p < parameters; p++) {
+            if (still(f, p)) continue;
             companion(N, f->q, &slope[p], &next);
             last_row(N, f->slope[p], e, next.e[N - 1]);
             scale(N, by, &next);
@@ -83,6 +92,7 @@ static void exponential(const ves_mode *mode, int parameters, ves_twos u, square
     for (int i = 0; i < halvings; i++) {
         square a, b;
         for (int p = 0; p < parameters; p++) {
+            if (still(f, p)) continue;
             multiply(N, e, &slope[p], &a);
             multiply(N, &slope[p], e, &b);
             add(N, &a, &b, &slope[p]);
