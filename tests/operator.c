@@ -87,6 +87,39 @@ Test(operator, scales_do_not_matter)
     cr_expect(ves_operator_elliptic(&op, &t) == false);
 }
 
+/* What is positive is elliptic, whatever overflows on the way; what cannot be solved for its size is told apart. */
+Test(operator, sizes_are_told_apart_from_signs)
+{
+    static const struct {
+        double c[3];
+        bool solvable;
+        int odd;
+    } row[] = {{{1e-300, 2, 1e300}, false, 0}, {{1, 1e200, 1}, false, 1},
+               {{1e-200, 2, 1e200}, false, 0}, {{1e-310, 2e-310, 1e-310}, false, 0},
+               {{1, 2e15, 1}, false, -1},      {{1, 1e13, 2}, false, -1},
+               {{1, 20000, 1e8}, true, -1},    {{1e-90, 2e-90, 1e-90}, true, -1},
+               {{1, 0, 1}, true, -1},          {{1, 2e12, 1e24}, true, -1},
+               {{2, -1e-3, 3}, true, -1}};
+    double t;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        ves_operator op = {.power = 2, .general = true};
+        for (int i = 0; i < 3; i++) op.parameter[i] = row[k].c[i];
+        ves_operator_size s = ves_operator_measure(&op);
+        cr_expect(ves_operator_elliptic(&op, &t), "row %zu: t = %g", k, t);
+        cr_expect(s.solvable == row[k].solvable && s.odd == row[k].odd, "row %zu: %g %g %d", k, s.fast,
+                  s.slow, s.odd);
+    }
+    ves_operator op = {.power = 2, .general = true, .parameter = {1e-300, -1, 1e300}};
+    cr_expect(ves_operator_elliptic(&op, &t) && ves_operator_measure(&op).solvable == false);
+    op.parameter[0] = 1e-200, op.parameter[1] = -3, op.parameter[2] = 1e200;
+    cr_expect(ves_operator_elliptic(&op, &t) == false && t > 1e199 && t < 1e201, "t = %g", t);
+    double s[2] = {16, 81};
+    ves_operator_size size = ves_operator_measure(
+        &(ves_operator){.power = 2, .general = true, .parameter = {3, 3 * (s[0] + s[1]), 3 * s[0] * s[1]}});
+    cr_expect(size.fast > 9 && size.fast < 18 && size.slow < 4 && size.slow > 2, "%g %g", size.fast,
+              size.slow);
+}
+
 /* Random polynomials: elliptic or not, as 200000 places say. */
 Test(operator, agrees_with_looking)
 {

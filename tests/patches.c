@@ -165,7 +165,7 @@ Test(patches, coefficients_that_are_not_elliptic_are_a_verdict_with_its_numbers)
     cr_expect(
         strstr(text,
                "test.yaml:5:3: warning: here: the operator of patch \"w\" for y is not elliptic: "
-               "c0 t^2 + c1 t + c2 is -0.389 at t = 0.833; waves would run along u instead of dying out"),
+               "c0 t^2 + c1 t + c2 is -0.556 at t = 1.33; waves would run along u instead of dying out"),
         "%s", text);
     bed_clear(&b);
 }

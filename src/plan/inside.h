@@ -196,8 +196,8 @@ ves_status ves_plan_sheets(ves_plan *plan, ves_diag *diag);
 ves_status ves_plan_conditions(const ves_plan *plan, int patch, ves_diag *diag);
 double ves_plan_omega(const ves_plan *plan, int patch);
 
-/* elliptic.c: refuses a patch whose operator is not elliptic at the start; and tells, "what: ...", of one whose
- * is not at the design that is bound (false: all are). */
+/* elliptic.c: refuses a patch whose operator is not elliptic at the start, or beyond what can be solved; and tells,
+ * "what: ...", of one whose is at the design that is bound (false: none is). */
 ves_status ves_plan_elliptic(const ves_plan *plan, int patch, ves_diag *diag);
 bool ves_plan_elliptic_tell(const ves_plan *plan, const char *what, ves_diag *diag);
 

@@ -1,5 +1,6 @@
 #include "surface/operator.h"
 
+#include <float.h>
 #include <math.h>
 
 int ves_operator_parameters(const ves_operator *op)
@@ -48,27 +49,57 @@ static bool find(const piece *p, int N, int depth, double *at)
     return find(&left, N, depth + 1, at) || find(&right, N, depth + 1, at);
 }
 
+/* log2 of the largest (|c_k| / |first|)^(1/k), counted from c_0 or, in reverse, from c_N; -HUGE_VAL: all are 0. */
+static double bound(const ves_operator *op, bool reverse)
+{
+    int N = op->power;
+    double most = -HUGE_VAL, first = log2(fabs(op->parameter[reverse ? N : 0]));
+    for (int k = 1; k <= N; k++)
+        most = fmax(most, (log2(fabs(op->parameter[reverse ? N - k : k])) - first) / k);
+    return most;
+}
+
 /* sum_k c_k t^(N-k), t = scale x / (1 - x), times (1-x)^N, has on [0, 1] the Bernstein coefficients
- * c_(N-j) scale^j / C(N, j). */
+ * c_(N-j) scale^j / C(N, j). No quotient c_k / c_0 need be a number. */
 bool ves_operator_elliptic(const ves_operator *op, double *t)
 {
     int N = op->power;
-    double scale = 0, binomial = 1, at = 0, c0 = op->parameter[0];
+    double binomial = 1, at = 0, c0 = op->parameter[0];
     *t = 0;
     if (!op->general) return c0 >= 0 && isfinite(c0);
     for (int k = 0; k <= N; k++)
         if (!isfinite(op->parameter[k])) return false;
     *t = HUGE_VAL;
     if (c0 <= 0) return false;
-    for (int k = 1; k <= N; k++) scale = fmax(scale, pow(fabs(op->parameter[k]) / c0, 1. / k));
     *t = 0;
-    if (!(scale > 0 && isfinite(scale))) return false;
+    if (op->parameter[N] <= 0) return false;
+    int scale = (int)ceil(bound(op, false)), own, first; /* a power of 2: nothing is rounded, or overflows */
+    double unit = frexp(c0, &first);
     piece whole = {.from = 0, .to = 1};
     for (int j = 0; j <= N; j++) {
-        whole.b[j] = op->parameter[N - j] / c0 * pow(scale, j - N) / binomial;
+        double part = frexp(op->parameter[N - j], &own) / unit;
+        whole.b[j] = ldexp(part, own - first + (j - N) * scale) / binomial;
         binomial *= (double)(N - j) / (j + 1);
     }
+    whole.b[0] = fmax(whole.b[0], DBL_MIN); /* c_N > 0, however small */
     if (!find(&whole, N, 0, &at)) return true;
-    *t = at < 1 ? scale * at / (1 - at) : HUGE_VAL;
+    *t = at < 1 ? ldexp(at / (1 - at), scale) : HUGE_VAL;
     return false;
+}
+
+ves_operator_size ves_operator_measure(const ves_operator *op)
+{
+    ves_operator_size s = {.odd = -1, .fast = 1, .slow = 1, .solvable = true};
+    if (!op->general) return s;
+    for (int k = 0; k <= op->power; k++) {
+        double decades = fabs(log10(fabs(op->parameter[k])));
+        if (op->parameter[k] == 0 || !(decades > VES_COEFFICIENT_DECADES) || !isfinite(op->parameter[k]))
+            continue;
+        s.odd = k, s.solvable = false;
+        return s;
+    }
+    if (!(op->parameter[0] > 0 && op->parameter[op->power] > 0)) return s;
+    s.fast = exp2(bound(op, false) / 2), s.slow = exp2(-bound(op, true) / 2);
+    s.solvable = s.fast <= VES_RATE_MOST && s.fast <= VES_RATE_SPREAD * s.slow;
+    return s;
 }

@@ -31,4 +31,22 @@ double ves_operator_rate(const ves_operator *op);
  * d_uu X = -t n^2 X waves run instead of dying out. A power operator always is, for a >= 0. */
 bool ves_operator_elliptic(const ves_operator *op, double *t);
 
+/* Of what size the numbers of an operator are. The rates are those of the waves that die out first and last, to a
+ * factor of order 1, in units of n: the largest (|c_k| / c_0)^(1/2k), the smallest (c_N / |c_(N-k)|)^(1/2k). */
+typedef struct ves_operator_size {
+    int odd;           /* a coefficient that is not 0 and beyond 10^+-VES_COEFFICIENT_DECADES, or -1 */
+    double fast, slow; /* where all coefficients are of a good size, c_0 and c_N positive; else 1 */
+    bool solvable;     /* fast is at most VES_RATE_MOST, and VES_RATE_SPREAD times slow */
+} ves_operator_size;
+
+enum {
+    VES_COEFFICIENT_DECADES = 100,
+    VES_RATE_MOST = 10000000,
+    /* Conditions at the ends, roots apart by this much: 1e-9 of the largest weight at order 12, 1e-16 up to order
+     * 8 [measured against MPFR]. */
+    VES_RATE_SPREAD = 1000000
+};
+
+ves_operator_size ves_operator_measure(const ves_operator *op);
+
 #endif

@@ -105,7 +105,8 @@ ves_status ves_chart_create(ves_patch *patch, const ves_grid *grid, unsigned fie
 void ves_chart_move(ves_chart *chart);
 
 void ves_patch_bind(ves_patch *patch, const ves_bound *bound);
-/* VES_NOT_ELLIPTIC, when the operator of the design that is bound is not. */
+/* VES_NOT_ELLIPTIC, when the operator of the design that is bound is not; VES_UNDETERMINED, when it is but cannot be
+ * solved for the size of its numbers (surface/operator.h). */
 ves_status ves_patch_status(const ves_patch *patch);
 /* gradient: prepare also what gather needs. VES_UNDETERMINED: see surface/weights.h. */
 ves_status ves_chart_prepare(ves_chart *chart, const ves_bound *bound, bool gradient);

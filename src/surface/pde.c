@@ -46,6 +46,7 @@ static void operators_bind(pde *p, const ves_bound *bound)
     for (int k = 0; k < p->def->operators; k++) {
         memcpy(p->op[k].parameter, bound->number + p->def->parameter[k],
                sizeof(double) * (size_t)p->parameters);
+        if (!ves_operator_measure(&p->op[k]).solvable) p->status = VES_UNDETERMINED;
         if (!ves_operator_elliptic(&p->op[k], &t)) p->status = VES_NOT_ELLIPTIC;
     }
     if (p->def->omega >= 0) p->rest.parameter[0] = bound->number[p->def->omega];
