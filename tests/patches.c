@@ -298,7 +298,7 @@ Test(patches, gradients_go_through_spines_raised_orders_and_omega)
 /* --- what conditions inside do --- */
 
 /* Eight wavy sections of a tube at u[i]. */
-static bed tube(const double u[8], const char *rest)
+static bed tube_of(const char *operator, const double u[8], const char *rest)
 {
     char text[8000];
     int at = snprintf(text, sizeof text, "vesica: 1\ncurves:\n");
@@ -308,11 +308,16 @@ static bed tube(const double u[8], const char *rest)
                        "%.17g]]}}\n",
                        i, u[i], 1 + 0.2 * sin(5 * u[i]), u[i], u[i], u[i]);
     at += snprintf(text + at, sizeof text - (size_t)at,
-                   "patches:\n  w:\n    operator: {power: 4}\n    conditions:\n");
+                   "patches:\n  w:\n    operator: %s\n    conditions:\n", operator);
     for (int i = 0; i < 8; i++)
         at += snprintf(text + at, sizeof text - (size_t)at, "      - {u: %.17g, position: c%d}\n", u[i], i);
     snprintf(text + at, sizeof text - (size_t)at, "%s\n", rest);
     return bed_with(text, NULL, 8, 8);
+}
+
+static bed tube(const double u[8], const char *rest)
+{
+    return tube_of("{power: 4}", u, rest);
 }
 
 static void expect_warning(const bed *b, const char *want)
@@ -374,6 +379,86 @@ Test(patches, facts_of_patches_without_conditions_inside)
     bed_clear(&b);
 }
 
+/* Positions are never singular: where they amplify beyond all numbers fewer modes are solved, and the remainder as a
+ * lower one. */
+Test(patches, modes_that_conditions_inside_make_unsolvable_are_left_to_a_remainder_that_is_not)
+{
+    static const struct {
+        const char *operator;
+        int modes;
+        double most; /* of omega, or 0 */
+    } row[] = {{"{power: 4, a: 2}", 12, 26},
+               {"{power: 4, a: 2000}", 0, 60},
+               {"{power: 4, a: 1e4}", 0, 60},
+               {"{power: 4, a: 1e6}", 0, 60},
+               {"{coefficients: [1, 4e8, 6e16, 4e24, 1e32]}", 0, 0}};
+    double even[8];
+    for (int i = 0; i < 8; i++) even[i] = i / 7.;
+    for (size_t k = 0; k < sizeof row / sizeof *row; k++) {
+        char rest[200];
+        bed b = tube_of(row[k].operator, even, "");
+        ves_patch_facts f = ves_plan_patch(b.plan, 0);
+        expect_warning(&b, NULL);
+        snprintf(rest, sizeof rest, "%s", row[k].operator);
+        cr_expect(f.modes == row[k].modes && f.rest > 0 && f.rest <= f.modes + 1, "%s: %d, %g", rest, f.modes,
+                  f.rest);
+        cr_expect(row[k].most == 0 ? isnan(f.omega) : f.omega > 5 && f.omega <= row[k].most, "%s: %g", rest,
+                  f.omega);
+        double X[18], u = 0.3, v = 1;
+        cr_assert_eq(ves_plan_points(b.plan, 0, 1, &u, &v, X), VES_OK);
+        cr_expect(fabs(X[0]) < 3 && fabs(X[1]) < 3 && X[2] > 0.2 && X[2] < 0.4, "%s: %g %g %g", rest, X[0],
+                  X[1], X[2]);
+        bed_clear(&b);
+    }
+}
+
+Test(patches, a_design_that_cannot_be_solved_is_a_verdict_with_patch_and_mode)
+{
+    double even[8], x = 9e4, constraint[4];
+    char text[1000] = "";
+    for (int i = 0; i < 8; i++) even[i] = i / 7.;
+    bed b = tube_of("{power: 4, a: k}", even, "variables: {k: [1, 2, 1e5]}\nminimize: area");
+    ves_verdict verdict = {.constraint = constraint};
+    ves_ask ask = {.x = &x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+    cr_assert_eq(ves_plan_evaluate(b.plan, &ask, &verdict), VES_OK);
+    cr_expect_eq(verdict.status, VES_UNDETERMINED);
+    ves_plan_why(b.plan, verdict.status, "here", b.diag);
+    if (ves_diag_count(b.diag)) ves_diag_text(b.diag, ves_diag_count(b.diag) - 1, text, sizeof text);
+    cr_expect(
+        strstr(
+            text,
+            "warning: here: patch \"w\" cannot be solved for mode 1: its conditions make about e^(lam u_N) "
+            "= e^3.86e+04 times as much of it (u_N = 0.429, how far number 4 stands from its nearer "
+            "end); lam = 9e+04 can be 1.59e+03 at most: make a smaller"),
+        "%s", text);
+    bed_clear(&b);
+}
+
+/* Roots r = +-0.005 +-i wave: positions amplify modes 10, 19 .. far more than the modes between. */
+Test(patches, modes_are_chosen_below_the_first_that_waves_amplify)
+{
+    for (const char *const *middle = (const char *const[]){"-1.9999", "-1.99", NULL}; *middle; middle++) {
+        char text[2000];
+        snprintf(text, sizeof text,
+                 "vesica: 1\ncurves:\n"
+                 "  p: {bspline: {points: [[1, 0, 0], [0, 1.2, 0.1], [-1, 0, 0], [0, -1, 0]]}}\n"
+                 "  q: {like: p, apply: [{translate: [0, 0, 0.3]}]}\n"
+                 "  r: {like: p, apply: [{translate: [0, 0, 0.6]}]}\n"
+                 "  s: {like: p, apply: [{translate: [0, 0, 1]}]}\n"
+                 "patches: {w: {operator: {coefficients: [1, %s, 1]}, conditions: [{u: 0, position: p}, {u: "
+                 "0.333, "
+                 "position: q}, {u: 0.667, position: r}, {u: 1, position: s}]}}\n",
+                 *middle);
+        bed b = bed_with(text, NULL, 8, 8);
+        ves_patch_facts f = ves_plan_patch(b.plan, 0);
+        expect_warning(&b, NULL);
+        cr_expect(f.modes == 9 && f.worst == 9 && f.rest == 10 && isnan(f.omega), "%d %d %g", f.modes,
+                  f.worst, f.rest);
+        cr_expect(f.amplification[2] < 1000 && f.amplification[2] == f.amplification[1]);
+        bed_clear(&b);
+    }
+}
+
 /* X_u at 1/2 - d and 1/2 + d with X at the ends: singular for the mean at d = 1/(2 sqrt 3), docs/errata.md. */
 Test(patches, conditions_that_nearly_leave_a_mode_free_are_told)
 {
@@ -384,6 +469,8 @@ Test(patches, conditions_that_nearly_leave_a_mode_free_are_told)
         NULL, 8, 8);
     expect_warning(
         &b, "patch \"w\": its conditions make of mode 0 of their curves 2.2e+03 times as much: digits are "
-            "lost, and fine detail swamps the surface; move them, or give others");
+            "lost, and fine detail swamps the surface; give the position and all lower derivatives at the "
+            "same u, or "
+            "give others, in place of X_u at u = 0.2113, X_u at u = 0.7887");
     bed_clear(&b);
 }

@@ -123,10 +123,12 @@ typedef struct ves_patch_facts {
     int modes;    /* of these solved one by one */
     double tail;  /* share of the data beyond them: root of the sum of squares, of the condition with most */
     double omega; /* lam of all modes beyond; NAN: there are none, or coefficients have no single lam */
-    bool
-        inside; /* conditions stand between the ends: then, of mode 0 and of the highest mode that is solved, */
-    double amplification[2]; /* the size of the surface that positions of size 1 may make, */
-    double condition[2];     /* and an estimate of the condition number of the conditions */
+    double
+        rest; /* the mode, M + 1 or lower, as which these are all solved; NAN: there are none, or omega is given */
+    int worst;               /* of the modes solved the one that is amplified most */
+    bool inside;             /* conditions stand between the ends: then, of modes 0, `modes` and `worst`, */
+    double amplification[3]; /* the size of the surface that positions of size 1 may make, */
+    double condition[3];     /* and an estimate of the condition number of the conditions */
 } ves_patch_facts;
 ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch);
 

@@ -75,7 +75,10 @@ static void kind_cell(app_table *t, const ves_patch_def *p)
 static void modes_cell(app_table *t, const ves_patch_facts *f)
 {
     char at[40] = "";
-    if (!isnan(f->omega)) snprintf(at, sizeof at, ", at omega = %.4g,", f->omega);
+    if (!isnan(f->omega))
+        snprintf(at, sizeof at, ", at omega = %.4g,", f->omega);
+    else if (!isnan(f->rest))
+        snprintf(at, sizeof at, ", solved as mode %.4g,", f->rest);
     if (f->modes == f->band)
         app_table_cell(t, "%d Fourier %s, all solved", f->band, f->band == 1 ? "mode" : "modes");
     else
@@ -110,7 +113,9 @@ static void amplifications(const checked *c)
     bool any = false;
     for (int k = 0; k < p->patches; k++) {
         const ves_patch_facts *f = &c->facts[k];
-        for (int i = 0; i < 2 && f->inside && (i == 0 || f->modes > 0); i++) {
+        const int mode[3] = {0, f->modes, f->worst};
+        for (int i = 0; i < 3 && f->inside; i++) {
+            if (i && (mode[i] == mode[0] || (i == 2 && mode[2] == mode[1]))) continue;
             if (!any) {
                 app_table_cell(&t, "conditions inside");
                 app_table_cell(&t, "mode");
@@ -119,7 +124,7 @@ static void amplifications(const checked *c)
             }
             any = true;
             app_table_cell(&t, "%s", i ? "" : p->patch[k].name);
-            app_table_cell(&t, "%d", i ? f->modes : 0);
+            app_table_cell(&t, "%d", mode[i]);
             app_table_cell(&t, "%.3g", f->amplification[i]);
             app_table_cell(&t, "%.1e", f->condition[i]);
         }
@@ -170,10 +175,10 @@ static void costs(const checked *c)
     fputc('\n', stdout);
 }
 
-static void json_pair(ves_json *json, const char *name, const double value[2])
+static void json_three(ves_json *json, const char *name, const double value[3])
 {
     ves_json_array(json, name);
-    for (int k = 0; k < 2; k++) ves_json_number(json, NULL, value[k]);
+    for (int k = 0; k < 3; k++) ves_json_number(json, NULL, value[k]);
     ves_json_end(json, ']');
 }
 
@@ -182,9 +187,12 @@ static void json_patch(ves_json *json, const ves_patch_facts *f)
     if (!f->order) return;
     ves_json_integer(json, "order", f->order);
     ves_json_number(json, "omega", f->omega);
+    ves_json_number(json, "rest", f->rest);
     if (!f->inside) return;
-    json_pair(json, "amplification", f->amplification); /* of mode 0 and of the highest that is solved */
-    json_pair(json, "condition", f->condition);
+    ves_json_integer(json, "worst", f->worst);
+    json_three(json, "amplification",
+               f->amplification); /* of mode 0, of the highest that is solved, of the worst */
+    json_three(json, "condition", f->condition);
 }
 
 static void json_print(const checked *c)

@@ -191,10 +191,15 @@ ves_status ves_sheet_look(const ves_plan *plan, int patch, plan_sheet *found);
 bool ves_sheet_one_sided(const plan_sheet *sheet);
 ves_status ves_plan_sheets(ves_plan *plan, ves_diag *diag);
 
-/* conditions.c: refuses conditions that determine no surface at the start, warns of those that amplify; lam of
- * the remainder, NAN where there is none or it is not one number. */
+/* conditions.c: refuses conditions that determine no surface at the start, or none that can be solved, warns of
+ * those that amplify; and tells, "what: ...", of a patch that has none at the design that is bound (false: all
+ * have). lam of the remainder, and the mode as which it is solved: NAN where there is none or it is not one
+ * number. The mode that is amplified most. */
 ves_status ves_plan_conditions(const ves_plan *plan, int patch, ves_diag *diag);
+bool ves_plan_conditions_tell(const ves_plan *plan, const char *what, ves_diag *diag);
 double ves_plan_omega(const ves_plan *plan, int patch);
+double ves_plan_rest(const ves_plan *plan, int patch);
+int ves_plan_worst(const ves_plan *plan, int patch);
 
 /* elliptic.c: refuses a patch whose operator is not elliptic at the start, or beyond what can be solved; and tells,
  * "what: ...", of one whose is at the design that is bound (false: none is). */

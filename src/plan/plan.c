@@ -366,10 +366,13 @@ ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch)
                              .modes = ves_patch_modes(p),
                              .tail = ves_patch_tail(p),
                              .omega = ves_plan_omega(plan, patch),
+                             .rest = ves_plan_rest(plan, patch),
                              .inside = stands_inside(d)};
-    for (int k = 0; k < 2 && facts.inside; k++) {
+    if (facts.inside) facts.worst = ves_plan_worst(plan, patch);
+    const int mode[3] = {0, facts.modes, facts.worst};
+    for (int k = 0; k < 3 && facts.inside; k++) {
         ves_amplification found;
-        ves_patch_amplification(p, k ? facts.modes : 0, &found);
+        ves_patch_amplification(p, mode[k], &found);
         facts.amplification[k] = found.amplified;
         facts.condition[k] = found.condition;
     }

@@ -177,5 +177,6 @@ void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag 
     if ((status == VES_NOT_ELLIPTIC || status == VES_UNDETERMINED) &&
         ves_plan_elliptic_tell(plan, what, diag))
         return;
+    if (status == VES_UNDETERMINED && ves_plan_conditions_tell(plan, what, diag)) return;
     ves_diag_add(diag, VES_WARNING, status, (ves_mark){0}, "%s: %s", what, ves_status_text(status));
 }

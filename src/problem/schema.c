@@ -93,7 +93,7 @@ static const ves_entry raised[] = {
 
 static const ves_entry remainder_keys[] = {
     {{"modes", VES_COUNT, .min = 0, .max = 4096, .about = "M, how many modes are solved one by one; 0: chosen: with conditions at the ends only, all that matter at the start, at least 40; with conditions inside, as many of these as come out less than 1000 times as large as their data"}, "modes: 6", NULL},
-    {{"omega", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = 1e9, .fallback = NAN, .words = "auto", .about = "lam of all modes beyond; auto: a (M + 1), that of the first mode which is not solved; a number only with power"}, "omega: 4*a", NULL},
+    {{"omega", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = 1e9, .fallback = NAN, .words = "auto", .about = "lam of all modes beyond; auto: a (M + 1), that of the first mode which is not solved, or less where that mode is beyond what can be solved; a number only with power"}, "omega: 4*a", NULL},
     END};
 
 static const ves_entry spine_points[] = {

@@ -1,5 +1,7 @@
 #include "surface/factor.h"
 
+#include <complex.h>
+
 enum { STEPS = 200 };
 
 bool ves_two_solve(int n, ves_two a[][VES_GENERAL_MAX], int columns, ves_two b[][VES_PARAMETERS_MAX])
@@ -119,4 +121,32 @@ void ves_factor_make(const ves_operator *op, bool slopes, ves_factor *f)
         before = moved;
     }
     if (slopes) slopes_make(op, b, f);
+}
+
+/* Q(z) in units of rate. */
+static double complex value(const ves_factor *f, double complex z)
+{
+    double complex sum = 1;
+    for (int k = f->power; k-- > 0;) sum = sum * z + f->q[k].hi;
+    return sum;
+}
+
+/* By Durand and Kerner's iteration. */
+double ves_factor_growth(const ves_operator *op)
+{
+    if (!op->general) return op->parameter[0];
+    ves_factor f;
+    double complex z[VES_GENERAL_MAX];
+    double most = 0;
+    ves_factor_make(op, false, &f);
+    for (int i = 0; i < f.power; i++) z[i] = 1.2 * cexp(I * (2.4 * i + 2.6));
+    for (int s = 0; s < STEPS; s++)
+        for (int i = 0; i < f.power; i++) {
+            double complex product = 1;
+            for (int k = 0; k < f.power; k++)
+                if (k != i) product *= z[i] - z[k];
+            if (product != 0) z[i] -= value(&f, z[i]) / product;
+        }
+    for (int i = 0; i < f.power; i++) most = fmax(most, -creal(z[i]));
+    return most * f.rate;
 }

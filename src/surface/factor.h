@@ -20,6 +20,10 @@ typedef struct ves_factor {
  * stay [Wilson 1969]. The operator is general and elliptic. */
 void ves_factor_make(const ves_operator *op, bool slopes, ves_factor *factor);
 
+/* The largest |Re r| for n = 1: a mode grows like e^(n u) of it, and waves beside that. Of a root of multiplicity m
+ * to 1e-16^(1/m). Any operator. */
+double ves_factor_growth(const ves_operator *op);
+
 /* Solves a x = b for n <= VES_GENERAL_MAX unknowns and `columns` right sides, in place; false: singular. */
 bool ves_two_solve(int n, ves_two a[][VES_GENERAL_MAX], int columns, ves_two b[][VES_PARAMETERS_MAX]);
 

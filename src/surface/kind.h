@@ -20,16 +20,18 @@ typedef struct ves_patch_ops {
                   double *out, double *room);
     bool (*spine)(const ves_patch *patch, const ves_bound *bound, int count, const double *u, double *out,
                   double *room);
-    double (*tail)(const ves_patch *patch);                                            /* NULL: 0 */
-    ves_status (*status)(const ves_patch *patch);                                      /* NULL: ok */
-    double (*depth)(const ves_patch *patch);                                           /* NULL: 0 */
-    bool (*amplification)(const ves_patch *patch, double n, ves_amplification *found); /* NULL: none */
+    double (*tail)(const ves_patch *patch);       /* NULL: 0 */
+    ves_status (*status)(const ves_patch *patch); /* NULL: ok */
+    double (*depth)(const ves_patch *patch);      /* NULL: 0 */
+    bool (*amplification)(const ves_patch *patch, double n, double lam,
+                          ves_amplification *found); /* NULL: none */
 } ves_patch_ops;
 
 struct ves_patch {
     const ves_patch_ops *ops;
     bool periodic, varies;
     int modes, band;
+    double rest;  /* ves_patch_rest */
     long binding; /* counts the bindings, so that charts know when their tables are stale */
     void *state;
 };

@@ -99,7 +99,7 @@ ves_operator_size ves_operator_measure(const ves_operator *op)
         return s;
     }
     if (!(op->parameter[0] > 0 && op->parameter[op->power] > 0)) return s;
-    s.fast = exp2(bound(op, false) / 2), s.slow = exp2(-bound(op, true) / 2);
+    s.fast = ves_operator_rate(op), s.slow = exp2(-bound(op, true) / 2);
     s.solvable = s.fast <= VES_RATE_MOST && s.fast <= VES_RATE_SPREAD * s.slow;
     return s;
 }

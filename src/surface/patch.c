@@ -1,3 +1,5 @@
+#include <math.h>
+
 #include "surface/kind.h"
 
 bool ves_patch_periodic(const ves_patch *patch)
@@ -62,7 +64,17 @@ double ves_patch_depth(const ves_patch *patch)
 
 bool ves_patch_amplification(const ves_patch *patch, double n, ves_amplification *found)
 {
-    return patch->ops->amplification && patch->ops->amplification(patch, n, found);
+    return patch->ops->amplification && patch->ops->amplification(patch, n, NAN, found);
+}
+
+bool ves_patch_amplification_at(const ves_patch *patch, double lam, ves_amplification *found)
+{
+    return patch->ops->amplification && patch->ops->amplification(patch, 1, lam, found);
+}
+
+double ves_patch_rest(const ves_patch *patch)
+{
+    return patch->rest;
 }
 
 ves_status ves_chart_prepare(ves_chart *chart, const ves_bound *bound, bool gradient)

@@ -70,7 +70,7 @@ typedef struct ves_pde {
      * 4.45-4.52 as corrected in docs/errata.md; Kubiesa 2004, eqs 22-28], so that all conditions are met
      * exactly. */
     int modes;
-    int omega; /* number block index; -1: that of mode `modes` + 1 */
+    int omega; /* number block index; -1: that of mode `modes` + 1, or lower where that cannot be solved */
     ves_spine spine;
 } ves_pde;
 
@@ -132,6 +132,10 @@ bool ves_patch_spine(const ves_patch *patch, const ves_bound *bound, int count, 
 /* What the conditions make of mode n: the largest of the operators' (surface/weights.h). false: this patch has
  * none. */
 bool ves_patch_amplification(const ves_patch *patch, double n, ves_amplification *found);
+bool ves_patch_amplification_at(const ves_patch *patch, double lam,
+                                ves_amplification *found); /* of a remainder */
+double
+ves_patch_rest(const ves_patch *patch); /* the mode, whole or not, as which that is solved if omega is auto */
 double ves_patch_depth(const ves_patch *patch); /* ves_layout_depth; 0 for other kinds */
 
 #endif

@@ -12,6 +12,8 @@ typedef ves_lanes lanes;
  * size, near its ends only. */
 static const double SIGNIFICANT = 1e-5;
 
+enum { HALVINGS = 40 };
+
 static int stride(int modes)
 {
     return 1 + 2 * modes;
@@ -267,17 +269,21 @@ static double pde_depth(const ves_patch *patch)
     return ves_layout_depth(&p->layout);
 }
 
-static bool pde_amplification(const ves_patch *patch, double n, ves_amplification *found)
+/* lam: NAN, or the operator is (d_uu + lam^2 d_vv)^N. */
+static bool pde_amplification(const ves_patch *patch, double n, double lam, ves_amplification *found)
 {
     const pde *p = patch->state;
-    *found = (ves_amplification){0};
-    for (int k = 0; k < p->def->operators; k++) {
+    ves_operator power = {.power = p->layout.power, .parameter = {lam}};
+    *found = (ves_amplification){.solvable = true};
+    for (int k = 0; k < (isnan(lam) ? p->def->operators : 1); k++) {
         ves_amplification one;
-        if (ves_weights_amplification(&p->layout, &p->op[k], n, &one) != VES_OK)
-            one = (ves_amplification){HUGE_VAL, HUGE_VAL, HUGE_VAL};
+        ves_status status = ves_weights_amplification(&p->layout, isnan(lam) ? &p->op[k] : &power, n, &one);
         found->amplified = fmax(found->amplified, one.amplified);
         found->lebesgue = fmax(found->lebesgue, one.lebesgue);
         found->condition = fmax(found->condition, one.condition);
+        found->lam = fmax(found->lam, one.lam);
+        found->free = found->free || one.free;
+        found->solvable = found->solvable && one.solvable && status == VES_OK;
     }
     return true;
 }
@@ -327,23 +333,46 @@ static int significant(const pde *p)
     return highest;
 }
 
-/* With conditions inside the patch mode n is amplified about e^(lam u_N) times: the highest mode, up to
- * `most`, whose data still come out less than VES_PATCH_AMPLIFIED times as large. */
+/* A power operator, and half of the conditions at each end, each with all lower derivatives: nothing is amplified,
+ * and all can be solved. */
+static bool regular(const pde *p)
+{
+    return !p->def->general && ves_layout_depth(&p->layout) == 0 && ves_layout_complete(&p->layout);
+}
+
+/* Can mode n be solved, and with conditions inside, does it come out at most `most` times as large? */
+static bool mild(const ves_patch *patch, double n, double most)
+{
+    const pde *p = patch->state;
+    ves_amplification found;
+    pde_amplification(patch, n, NAN, &found);
+    return found.solvable && (found.amplified <= most || ves_layout_depth(&p->layout) == 0);
+}
+
+/* With conditions inside the patch mode n is amplified about e^(lam u_N) times, and where roots wave some modes much
+ * more than their neighbours: the modes, up to `most`, before the first that comes out more than
+ * VES_PATCH_AMPLIFIED times as large. */
 static int harmless(const ves_patch *patch, int most)
 {
-    ves_amplification found;
-    int low = 0, high = most;
+    int n = 1;
+    if (regular(patch->state)) return most;
+    while (n <= most && mild(patch, n, VES_PATCH_AMPLIFIED)) n++;
+    return n - 1;
+}
+
+/* The remainder is taken as the first mode that is not solved; where that one cannot be solved, or is amplified more
+ * than the first of those chosen may be, as a lower one, not whole, that is harmless. */
+static void rest_choose(ves_patch *patch)
+{
+    ves_amplification zero;
     const pde *p = patch->state;
-    if (ves_layout_depth(&p->layout) == 0) return most;
-    while (low < high) {
-        int middle = (low + high + 1) / 2;
-        bool good = pde_amplification(patch, middle, &found) && found.amplified <= VES_PATCH_AMPLIFIED;
-        if (good)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
+    double least = VES_PATCH_AMPLIFIED, most = p->def->modes > 0 ? HUGE_VAL : least * least;
+    patch->rest = p->modes + 1;
+    if (p->status != VES_OK || p->def->omega >= 0 || p->band == p->modes || regular(p)) return;
+    pde_amplification(patch, 0, NAN, &zero);
+    least = fmax(least, 2 * zero.amplified), most = fmax(most, least);
+    for (int k = 0; k < HALVINGS && zero.solvable && !mild(patch, patch->rest, k ? least : most); k++)
+        patch->rest /= 2;
 }
 
 static void modes_choose(ves_patch *patch)
@@ -354,6 +383,8 @@ static void modes_choose(ves_patch *patch)
     if (most > p->band) most = p->band;
     p->modes = p->def->modes > 0 || p->status != VES_OK ? most : harmless(patch, most);
     patch->modes = p->modes;
+    rest_choose(patch);
+    p->rest_mode = patch->rest;
 }
 
 /* What moves with the variables. */

@@ -24,6 +24,7 @@ typedef struct pde {
     int parameters;    /* of each operator */
     bool op_varies[3], omega_varies;
     int modes, band;      /* M and the data's band limit */
+    double rest_mode;     /* as which the remainder is solved when omega is not given */
     double *data;         /* [conditions][3][1 + 2 band]: F */
     double *data_adjoint; /* same shape */
     double parameter_adjoint[3][VES_PARAMETERS_MAX], omega_adjoint;

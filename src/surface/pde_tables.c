@@ -34,7 +34,7 @@ static ves_status rest_make(const pde *p, int op, int nup, const double *u, bool
     bool given = p->def->omega >= 0;
     double *slope = given ? (p->omega_varies && slopes ? t->rest_slope : NULL)
                           : (p->op_varies[op] && slopes ? t->rest_slope : NULL);
-    return ves_weights_mode(&p->layout, given ? &p->rest : &p->op[op], given ? 1 : p->modes + 1, nup, u,
+    return ves_weights_mode(&p->layout, given ? &p->rest : &p->op[op], given ? 1 : p->rest_mode, nup, u,
                             &(ves_table){.weight = t->rest, .slope = slope, .room = room});
 }
 

@@ -5,6 +5,7 @@
 #include "base/arena.h"
 #include "base/vector.h"
 #include "surface/exact.h"
+#include "surface/factor.h"
 #include "surface/fast.h"
 
 enum { ORDERS = 3 };
@@ -110,16 +111,52 @@ static ves_status amplification(const ves_layout *layout, const ves_operator *op
     return VES_OK;
 }
 
+/* Beyond what e^(lam u_N) explains, and beyond what 32 digits can tell from singular. */
+static const double SINGULAR = 1e10, CONDITION = 1e28;
+
+/* Each derivative among the first `count` knots with all lower ones. */
+static bool complete(const ves_layout *layout, int count)
+{
+    for (int j = 0; j < count; j++) {
+        const ves_knot *knot = &layout->knot[j];
+        bool found = knot->derivative == 0;
+        for (int i = 0; i < count; i++)
+            found =
+                found || (layout->knot[i].u == knot->u && layout->knot[i].derivative == knot->derivative - 1);
+        if (!found) return false;
+    }
+    return true;
+}
+
+bool ves_layout_complete(const ves_layout *layout)
+{
+    return complete(layout, conditions(layout)) && complete(layout, 2 * layout->lower);
+}
+
+/* What the numbers found mean. */
+static void classify(const ves_layout *layout, const ves_operator *op, ves_amplification *found)
+{
+    double depth = ves_layout_depth(layout), growth = found->lam * depth;
+    bool told = isfinite(found->amplified) && found->condition <= CONDITION;
+    bool regular = ves_layout_complete(layout) && (!op->general || depth == 0);
+    found->free =
+        !regular && (isfinite(found->lebesgue) ? log(found->lebesgue) > log(SINGULAR) + growth : false);
+    if (!regular && !told && growth < log(CONDITION)) found->free = true;
+    found->solvable = told && !found->free;
+}
+
 ves_status ves_weights_amplification(const ves_layout *layout, const ves_operator *op, double n,
                                      ves_amplification *found)
 {
     ves_arena arena = {0};
     double *room = ves_arena_doubles(&arena, (size_t)ves_exact_room(layout, 1));
-    *found = (ves_amplification){HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    *found = (ves_amplification){.lebesgue = HUGE_VAL, .amplified = HUGE_VAL, .condition = HUGE_VAL};
+    found->lam = n * ves_factor_growth(op);
     ves_status status = room ? ves_exact_condition(layout, op, n, &found->condition, room) : VES_MEMORY;
     if (status == VES_OK) status = amplification(layout, op, n, &arena, found);
     ves_arena_destroy(&arena);
-    return status;
+    classify(layout, op, found);
+    return status == VES_MEMORY ? status : VES_OK;
 }
 
 double ves_layout_depth(const ves_layout *layout)

@@ -65,12 +65,24 @@ typedef struct ves_amplification {
         amplified; /* that, or max |l_j(u)| lam^k of a condition on the k-th derivative, if it is more (lam at
                          least 1): what is natural is 1 */
     double condition; /* of the condition matrix */
+    double lam; /* of the mode: n times the largest real part of a root; e^(lam u_N) is what to expect */
+    /* The conditions do not determine the mode: what is found is beyond what e^(lam u_N) explains. Never said of
+     * positions, each with all derivatives up to some order, and a power operator, nor of half of them at each
+     * end: sums of real exponentials have too few zeros for that. */
+    bool free;
+    bool
+        solvable; /* determined, by numbers of which something is left in 32 digits, and that a double holds */
 } ves_amplification;
+
+/* VES_MEMORY; else VES_OK. Numbers that are not known are HUGE_VAL. */
 ves_status ves_weights_amplification(const ves_layout *layout, const ves_operator *op, double n,
                                      ves_amplification *found);
 
 /* The largest u_N: the distance of the N-th condition from its nearer end. Mode n is amplified about
  * e^(lam u_N) times: 0 when half of the conditions stand at each end. */
 double ves_layout_depth(const ves_layout *layout);
+
+/* Does each derivative stand with all lower ones, those of the lower order by themselves too? */
+bool ves_layout_complete(const ves_layout *layout);
 
 #endif
