@@ -264,12 +264,31 @@ int ves_plan_worst(const ves_plan *plan, int patch)
     return unsolved(&t, &f) ? 0 : f.worst;
 }
 
+/* More than this share of the curves in the remainder is no detail of them any more. */
+static const double LEFT = 0.01;
+
+/* The file did not say how many modes to solve, and few were chosen: what is drawn is not what it asks for. */
+static void warn_left(const ves_plan *plan, int patch, ves_diag *diag)
+{
+    const ves_patch *p = plan->patch[patch];
+    const ves_patch_def *d = &plan->problem->patch[patch];
+    double left = d->kind == VES_PATCH_PDE && d->modes == 0 ? ves_patch_tail(p) : 0;
+    if (left <= LEFT) return;
+    ves_diag_add(
+        diag, VES_WARNING, VES_OK, d->mark,
+        "patch \"%s\": %d of its %d modes are solved, the next would be amplified too much; %.3g %% of its "
+        "curves are left to the remainder, which meets the conditions but not the equation: say how many "
+        "are meant (remainder: {modes: N}), take a smaller a, or put conditions nearer the ends",
+        d->name, ves_patch_modes(p), ves_patch_band(p), 100 * left);
+}
+
 ves_status ves_plan_conditions(const ves_plan *plan, int patch, ves_diag *diag)
 {
     telling t = {plan, patch, VES_ERROR, VES_SINGULAR, "", diag};
     findings f;
     if (unsolved(&t, &f)) return VES_SINGULAR;
     if (f.first >= 0) warn(plan, patch, &f, diag);
+    warn_left(plan, patch, diag);
     return VES_OK;
 }
 
