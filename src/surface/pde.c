@@ -14,11 +14,6 @@ static const double SIGNIFICANT = 1e-5;
 
 enum { HALVINGS = 40 };
 
-static int stride(int modes)
-{
-    return 1 + 2 * modes;
-}
-
 static bool number_varies(const ves_bound *bound, int index)
 {
     return index >= 0 && bound->varying[index];
@@ -29,12 +24,12 @@ static void datum_bind(const pde *p, int j, const ves_bound *bound)
 {
     const ves_datum *d = &p->def->datum[j];
     double scale = d->scale < 0 ? 1 : bound->number[d->scale];
-    int width = stride(p->band);
+    int width = ves_curve_stride(p->band);
     double *out = p->data + (size_t)(j * 3 * width);
     memset(out, 0, sizeof(double) * (size_t)(3 * width));
     for (int t = 0; t < d->terms; t++) {
         double f = scale * d->term[t].factor;
-        int w = stride(ves_curves_modes(bound->curves, d->term[t].curve));
+        int w = ves_curve_stride(ves_curves_modes(bound->curves, d->term[t].curve));
         const double *c = ves_curves_coef(bound->curves, d->term[t].curve);
         for (int k = 0; k < 3; k++)
             for (int m = 0; m < w; m++) out[k * width + m] += f * c[k * w + m];
@@ -69,7 +64,7 @@ static void places_fill(pde_chart *c, const ves_grid *grid)
 
 static ves_status chart_memory(const pde *p, pde_chart *c, int nv, ves_arena *arena)
 {
-    long mode = 9L * stride(p->modes) * c->nup, tail = p->band - p->modes;
+    long mode = 9L * ves_curve_stride(p->modes) * c->nup, tail = p->band - p->modes;
     long residual = tail ? 3L * p->conditions * 3 * nv : 0;
     VES_TRY(ves_pde_tables_create(p, c->nup, arena, c->tables));
     c->u = ves_arena_doubles(arena, (size_t)c->nup);
@@ -140,7 +135,7 @@ static void pde_move(ves_chart *chart)
  * first .. last - 1 share the table. */
 HOT void modes_product(const pde *p, const pde_chart *c, int K, int orders, int first, int last)
 {
-    int nup = c->nup, width = stride(p->band), mode_stride = stride(p->modes);
+    int nup = c->nup, width = ves_curve_stride(p->band), mode_stride = ves_curve_stride(p->modes);
     const double *tables = c->tables[pde_operator(p, first)].table;
     for (int part = 0; part < mode_stride; part++) {
         const double *f = p->data + part, *table = tables + (size_t)((part + 1) / 2 * 3 * K * nup);
@@ -163,7 +158,7 @@ HOT void modes_product(const pde *p, const pde_chart *c, int K, int orders, int 
 /* A_0 is the given spine. */
 static void spine_product(const pde *p, const pde_chart *c)
 {
-    int nup = c->nup, mode_stride = stride(p->modes), terms = p->spine.terms;
+    int nup = c->nup, mode_stride = ves_curve_stride(p->modes), terms = p->spine.terms;
     for (int d = 0; d < c->orders; d++)
         for (int k = 0; k < 3; k++)
             for (int b = 0; b < nup; b += VES_LANES) {
@@ -189,7 +184,7 @@ static void modes_eval(const pde *p, const pde_chart *c)
 
 static void residual_eval(const pde *p, const pde_chart *c, int nv)
 {
-    int tail = p->band - p->modes, width = stride(p->band);
+    int tail = p->band - p->modes, width = ves_curve_stride(p->band);
     for (int j = 0; j < p->conditions; j++)
         for (int e = 0; e < 3; e++)
             for (int k = 0; k < 3; k++) {
@@ -242,7 +237,7 @@ static void pde_sample(const ves_chart *chart, const ves_tile *tile, ves_tile_pl
 static double pde_tail(const ves_patch *patch)
 {
     const pde *p = patch->state;
-    int width = stride(p->band);
+    int width = ves_curve_stride(p->band);
     double largest = 0;
     for (int j = 0; j < p->conditions; j++) {
         double all = 0, rest = 0;
@@ -320,7 +315,7 @@ static int widest(const ves_datum *datum, int count, const ves_curves *curves)
 /* The highest mode of the data, at the design that is bound, above SIGNIFICANT of its condition's largest. */
 static int significant(const pde *p)
 {
-    int width = stride(p->band), highest = 0;
+    int width = ves_curve_stride(p->band), highest = 0;
     for (int j = 0; j < p->conditions; j++) {
         double largest = 0;
         for (int k = 1; k < width; k++)
@@ -422,7 +417,7 @@ ves_status ves_patch_pde(const ves_pde *def, const ves_bound *bound, ves_arena *
     p->parameters = ves_operator_parameters(&p->op[0]);
     *made = (ves_patch){.ops = &PDE, .periodic = true, .varies = varies_find(p, bound), .state = p};
     made->band = p->band = widest(def->datum, p->conditions, bound->curves);
-    size_t size = (size_t)(p->conditions * 3 * stride(p->band));
+    size_t size = (size_t)(p->conditions * 3 * ves_curve_stride(p->band));
     p->data = ves_arena_doubles(arena, size);
     p->data_adjoint = ves_arena_doubles(arena, size);
     if (!p->data || !p->data_adjoint) return VES_MEMORY;

@@ -5,15 +5,10 @@
 
 typedef ves_lanes lanes;
 
-static int stride(int modes)
-{
-    return 1 + 2 * modes;
-}
-
 void ves_pde_clear(ves_patch *patch)
 {
     pde *p = patch->state;
-    memset(p->data_adjoint, 0, sizeof(double) * (size_t)(p->conditions * 3 * stride(p->band)));
+    memset(p->data_adjoint, 0, sizeof(double) * (size_t)(p->conditions * 3 * ves_curve_stride(p->band)));
     memset(p->parameter_adjoint, 0, sizeof p->parameter_adjoint);
     p->omega_adjoint = 0;
     if (p->spine.terms) memset(p->spine.adjoint, 0, sizeof(double) * (size_t)(3 * p->spine.terms));
@@ -23,7 +18,7 @@ void ves_pde_clear_chart(ves_chart *chart)
 {
     const pde *p = chart->patch->state;
     const pde_chart *c = chart->state;
-    memset(c->mode_adjoint, 0, sizeof(double) * (size_t)(9 * stride(p->modes) * c->nup));
+    memset(c->mode_adjoint, 0, sizeof(double) * (size_t)(9 * ves_curve_stride(p->modes) * c->nup));
     if (p->band > p->modes)
         memset(c->residual_adjoint, 0, sizeof(double) * (size_t)(9 * p->conditions * chart->grid->nv));
 }
@@ -72,7 +67,8 @@ void ves_pde_scatter(ves_chart *chart, const ves_tile *tile, const ves_tile_plan
  * The mean does not depend on the operator; a given spine has taken its place. */
 HOT void modes_transpose(pde *p, const pde_chart *c, int K, int orders, int parameters, int first, int last)
 {
-    int nup = c->nup, width = stride(p->band), mode_stride = stride(p->modes), op = pde_operator(p, first);
+    int nup = c->nup, width = ves_curve_stride(p->band), mode_stride = ves_curve_stride(p->modes),
+        op = pde_operator(p, first);
     const pde_tables *t = &c->tables[op];
     size_t size = (size_t)((p->modes + 1) * 3 * K * nup);
     lanes moved[VES_PARAMETERS_MAX] = {{0}};
@@ -107,7 +103,7 @@ HOT void modes_transpose(pde *p, const pde_chart *c, int K, int orders, int para
 
 static void spine_transpose(pde *p, const pde_chart *c)
 {
-    int nup = c->nup, mode_stride = stride(p->modes), terms = p->spine.terms;
+    int nup = c->nup, mode_stride = ves_curve_stride(p->modes), terms = p->spine.terms;
     for (int d = 0; d < c->orders; d++)
         for (int k = 0; k < 3; k++)
             for (int b = 0; b < nup; b += VES_LANES) {
@@ -139,7 +135,7 @@ void ves_pde_gather(ves_chart *chart, const ves_bound *bound, double *number_adj
     pde *p = chart->patch->state;
     const pde_chart *c = chart->state;
     modes_gather(p, c);
-    int tail = p->band - p->modes, width = stride(p->band), nv = chart->grid->nv;
+    int tail = p->band - p->modes, width = ves_curve_stride(p->band), nv = chart->grid->nv;
     for (int j = 0; j < p->conditions && tail; j++)
         for (int k = 0; k < 3; k++)
             for (int m = 0; m < 2 * tail; m++) {
@@ -157,7 +153,7 @@ void ves_pde_unbind(ves_patch *patch, const ves_bound *bound, double *number_adj
 {
     pde *p = patch->state;
     const ves_pde *def = p->def;
-    int width = stride(p->band);
+    int width = ves_curve_stride(p->band);
     ves_pde_spine_unbind(p, number_adjoint);
     for (int k = 0; k < def->operators; k++)
         for (int i = 0; i < p->parameters; i++)
@@ -168,7 +164,7 @@ void ves_pde_unbind(ves_patch *patch, const ves_bound *bound, double *number_adj
         const ves_datum *d = &def->datum[j];
         double scale = d->scale < 0 ? 1 : bound->number[d->scale], by_scale = 0;
         for (int t = 0; t < d->terms; t++) {
-            int curve = d->term[t].curve, w = stride(ves_curves_modes(bound->curves, curve));
+            int curve = d->term[t].curve, w = ves_curve_stride(ves_curves_modes(bound->curves, curve));
             double factor = d->term[t].factor, *to = ves_curves_adjoint(bound->curves, curve);
             const double *value = ves_curves_coef(bound->curves, curve);
             for (int k = 0; k < 3; k++)

@@ -6,11 +6,6 @@
 
 enum { CHUNK = PDE_CHUNK };
 
-static int stride(int modes)
-{
-    return 1 + 2 * modes;
-}
-
 /* One operator's weights: modes 0 .. M, the remainder. */
 static long table_size(const pde *p)
 {
@@ -63,7 +58,7 @@ static double spine_value(const pde *p, const double *basis, int d, int i, int k
 /* sum_j W[d][j] F_j for coefficient `part` of the mode that the weights are of. */
 static double solved_value(const pde *p, const double *weight, int part, int d, int i, int k)
 {
-    int K = p->conditions, width = stride(p->band);
+    int K = p->conditions, width = ves_curve_stride(p->band);
     double sum = 0;
     for (int j = 0; j < K; j++) sum += weight[(d * K + j) * CHUNK + i] * p->data[(j * 3 + k) * width + part];
     return sum;
