@@ -11,25 +11,6 @@ static const double CHEBYSHEV = 0.01;
 
 enum { TEXT = 400, LISTED = 8, STEPS = 40 };
 
-/* Half of the conditions of this order at each end, each with all lower derivatives: regular for every
- * operator. */
-static bool hermite(const ves_patch_def *d, int power)
-{
-    for (int end = 0; end < 2; end++)
-        for (int k = 0; k < power; k++) {
-            bool found = false;
-            for (int j = 0; j < 2 * power; j++)
-                found = found || (d->condition[j].u == end && d->condition[j].derivative == k);
-            if (!found) return false;
-        }
-    return true;
-}
-
-static bool regular(const ves_patch_def *d)
-{
-    return hermite(d, d->power) && (!d->lower || hermite(d, d->lower));
-}
-
 /* Is the derivative below this one given at the same place? */
 static bool supported(const ves_patch_def *d, const ves_condition *c)
 {
@@ -129,7 +110,8 @@ static void tell_beyond(const telling *t, double n, const ves_amplification *fou
 {
     const ves_patch_def *d = def_of(t);
     char which[40] = "the remainder", advice[80] = "make omega smaller, or auto", reason[160];
-    double depth = ves_patch_depth(t->plan->patch[t->patch]), most = n == 0 ? 0 : limit(t, n, found);
+    double depth = ves_layout_depth(ves_patch_layout(t->plan->patch[t->patch])),
+           most = n == 0 ? 0 : limit(t, n, found);
     if (most <= 0) {
         tell_close(t);
         return;
@@ -237,7 +219,7 @@ static bool look(const telling *t, double n, findings *f)
             tell_beyond(t, n, &found);
         return true;
     }
-    if (n == REST || regular(def_of(t))) return false;
+    if (n == REST || ves_layout_regular(ves_patch_layout(t->plan->patch[t->patch]))) return false;
     if (found.amplified > VES_PATCH_AMPLIFIED && f->first < 0)
         f->first = (int)n, f->at_first = found.amplified;
     if (found.amplified > f->at_worst) f->worst = (int)n, f->at_worst = found.amplified;
@@ -250,7 +232,8 @@ static bool unsolved(const telling *t, findings *f)
     const ves_patch *p = t->plan->patch[t->patch];
     const ves_patch_def *d = def_of(t);
     *f = (findings){.first = -1, .worst = -1};
-    if (d->kind != VES_PATCH_PDE || ves_patch_status(p) != VES_OK || (!d->general && regular(d)))
+    if (d->kind != VES_PATCH_PDE || ves_patch_status(p) != VES_OK ||
+        (!d->general && ves_layout_regular(ves_patch_layout(p))))
         return false;
     for (int n = 0; n <= ves_patch_modes(p); n++)
         if (look(t, n, f)) return true;

@@ -20,9 +20,9 @@ typedef struct ves_patch_ops {
                   double *out, double *room);
     bool (*spine)(const ves_patch *patch, const ves_bound *bound, int count, const double *u, double *out,
                   double *room);
-    double (*tail)(const ves_patch *patch);       /* NULL: 0 */
-    ves_status (*status)(const ves_patch *patch); /* NULL: ok */
-    double (*depth)(const ves_patch *patch);      /* NULL: 0 */
+    double (*tail)(const ves_patch *patch);              /* NULL: 0 */
+    ves_status (*status)(const ves_patch *patch);        /* NULL: ok */
+    const ves_layout *(*layout)(const ves_patch *patch); /* NULL: none */
     bool (*amplification)(const ves_patch *patch, double n, double lam,
                           ves_amplification *found); /* NULL: none */
 } ves_patch_ops;

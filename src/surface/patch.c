@@ -57,9 +57,9 @@ ves_status ves_patch_status(const ves_patch *patch)
     return patch->ops->status ? patch->ops->status(patch) : VES_OK;
 }
 
-double ves_patch_depth(const ves_patch *patch)
+const ves_layout *ves_patch_layout(const ves_patch *patch)
 {
-    return patch->ops->depth ? patch->ops->depth(patch) : 0;
+    return patch->ops->layout ? patch->ops->layout(patch) : NULL;
 }
 
 bool ves_patch_amplification(const ves_patch *patch, double n, ves_amplification *found)

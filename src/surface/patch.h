@@ -136,6 +136,6 @@ bool ves_patch_amplification_at(const ves_patch *patch, double lam,
                                 ves_amplification *found); /* of a remainder */
 double
 ves_patch_rest(const ves_patch *patch); /* the mode, whole or not, as which that is solved if omega is auto */
-double ves_patch_depth(const ves_patch *patch); /* ves_layout_depth; 0 for other kinds */
+const ves_layout *ves_patch_layout(const ves_patch *patch); /* NULL for other kinds */
 
 #endif

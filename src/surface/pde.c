@@ -258,10 +258,10 @@ static ves_status pde_status(const ves_patch *patch)
     return p->status;
 }
 
-static double pde_depth(const ves_patch *patch)
+static const ves_layout *pde_layout(const ves_patch *patch)
 {
     const pde *p = patch->state;
-    return ves_layout_depth(&p->layout);
+    return &p->layout;
 }
 
 /* lam: NAN, or the operator is (d_uu + lam^2 d_vv)^N. */
@@ -298,7 +298,7 @@ static const ves_patch_ops PDE = {.chart = pde_chart_create,
                                   .spine = ves_pde_spine_points,
                                   .tail = pde_tail,
                                   .status = pde_status,
-                                  .depth = pde_depth,
+                                  .layout = pde_layout,
                                   .amplification = pde_amplification};
 
 static int widest(const ves_datum *datum, int count, const ves_curves *curves)
@@ -328,11 +328,10 @@ static int significant(const pde *p)
     return highest;
 }
 
-/* A power operator, and half of the conditions at each end, each with all lower derivatives: nothing is amplified,
- * and all can be solved. */
+/* Nothing is amplified, and all can be solved. */
 static bool regular(const pde *p)
 {
-    return !p->def->general && ves_layout_depth(&p->layout) == 0 && ves_layout_complete(&p->layout);
+    return !p->def->general && ves_layout_regular(&p->layout);
 }
 
 /* Can mode n be solved, and with conditions inside, does it come out at most `most` times as large? */

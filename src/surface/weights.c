@@ -128,9 +128,14 @@ static bool complete(const ves_layout *layout, int count)
     return true;
 }
 
-bool ves_layout_complete(const ves_layout *layout)
+static bool both_complete(const ves_layout *layout)
 {
     return complete(layout, conditions(layout)) && complete(layout, 2 * layout->lower);
+}
+
+bool ves_layout_regular(const ves_layout *layout)
+{
+    return ves_layout_depth(layout) == 0 && both_complete(layout);
 }
 
 /* What the numbers found mean. */
@@ -138,7 +143,7 @@ static void classify(const ves_layout *layout, const ves_operator *op, ves_ampli
 {
     double depth = ves_layout_depth(layout), growth = found->lam * depth;
     bool told = isfinite(found->amplified) && found->condition <= CONDITION;
-    bool regular = ves_layout_complete(layout) && (!op->general || depth == 0);
+    bool regular = both_complete(layout) && (!op->general || depth == 0);
     found->free =
         !regular && (isfinite(found->lebesgue) ? log(found->lebesgue) > log(SINGULAR) + growth : false);
     if (!regular && !told && growth < log(CONDITION)) found->free = true;
@@ -159,20 +164,24 @@ ves_status ves_weights_amplification(const ves_layout *layout, const ves_operato
     return status == VES_MEMORY ? status : VES_OK;
 }
 
-double ves_layout_depth(const ves_layout *layout)
+/* Of the first 2N knots. */
+static double depth_of(const ves_layout *layout, int N)
 {
-    int count = conditions(layout);
     double depth = 0;
-    for (int j = 0; j < count; j++) {
+    for (int j = 0; j < 2 * N; j++) {
         int nearer[2] = {0, 0}; /* conditions before this one, as seen from each end */
-        for (int i = 0; i < count; i++) {
+        for (int i = 0; i < 2 * N; i++) {
             double here = layout->knot[j].u, there = layout->knot[i].u;
             nearer[0] += there < here || (there == here && i < j);
             nearer[1] += there > here || (there == here && i < j);
         }
         for (int e = 0; e < 2; e++)
-            if (nearer[e] == layout->power - 1)
-                depth = fmax(depth, e ? 1 - layout->knot[j].u : layout->knot[j].u);
+            if (nearer[e] == N - 1) depth = fmax(depth, e ? 1 - layout->knot[j].u : layout->knot[j].u);
     }
     return depth;
+}
+
+double ves_layout_depth(const ves_layout *layout)
+{
+    return fmax(depth_of(layout, layout->power), depth_of(layout, layout->lower));
 }

@@ -78,11 +78,12 @@ typedef struct ves_amplification {
 ves_status ves_weights_amplification(const ves_layout *layout, const ves_operator *op, double n,
                                      ves_amplification *found);
 
-/* The largest u_N: the distance of the N-th condition from its nearer end. Mode n is amplified about
- * e^(lam u_N) times: 0 when half of the conditions stand at each end. */
+/* The largest u_N: the distance of the N-th condition from its nearer end, of the lower order too. Mode n is
+ * amplified about e^(lam u_N) times: 0 when half of the conditions stand at each end. */
 double ves_layout_depth(const ves_layout *layout);
 
-/* Does each derivative stand with all lower ones, those of the lower order by themselves too? */
-bool ves_layout_complete(const ves_layout *layout);
+/* Half of the conditions at each end, each with all lower derivatives, those of the lower order by themselves too:
+ * a power operator amplifies nothing, and every mode can be solved. */
+bool ves_layout_regular(const ves_layout *layout);
 
 #endif
