@@ -41,14 +41,12 @@ static void on_record(void *data, const ves_record *r)
         mix_number(t, r->accepted + 2 * r->gradient);
 }
 
+/* Not of the bytes: how often it is told depends on the threads. */
 static void on_progress(void *data, const ves_progress *p)
 {
     tape *t = data;
     t->events++;
-    mix(t, p->stage_name, strlen(p->stage_name));
-    mix_number(t, p->stage), mix_number(t, (double)p->evaluations), mix_number(t, (double)p->budget);
-    mix_number(t, p->temperature), mix_number(t, p->acceptance), mix_number(t, p->any);
-    if (p->any) mix_number(t, p->value), mix_number(t, p->violation);
+    cr_expect(p->stage_name && p->evaluations <= p->budget && t->records <= p->evaluations);
 }
 
 static void mix_result(tape *t, const ves_search_result *r)
@@ -113,7 +111,7 @@ Test(search_run, same_seed_same_bytes_for_any_number_of_workers)
             for (int workers = 1; workers <= 4; workers++) {
                 g.workers = workers;
                 tape again = taped(g, o, hooked);
-                cr_expect(again.hash == first.hash && again.events == first.events,
+                cr_expect(again.hash == first.hash && !again.events == !first.events,
                           "gradients %d, %d workers: other bytes", gradients, workers);
             }
             o.seed++;

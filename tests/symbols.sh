@@ -1,7 +1,7 @@
 #!/bin/sh
 # What a program that links vesica can collide with: every global symbol of libvesica.a begins with ves_; what the C++ of the
 # bridge adds is mangled, and weak where it is a template's, so that another program's copy is as good. And every function of
-# the installed headers is in the library (or inline), and called by tests/api.c, which sees nothing but those headers.
+# the installed headers is in the library (or inline), and called by tests/api*.c, which see nothing but those headers.
 set -eu
 place=$(mktemp -d) && trap 'rm -rf "$place"' EXIT
 headers=$1/include/vesica
@@ -18,7 +18,7 @@ status=0
 while read -r name; do
   grep -qE " $name\$" "$place/symbols" || grep -qE "static inline .*\<$name\(" "$headers"/*.h ||
     { echo "$name is declared, but nowhere defined" && status=1; }
-  grep -qE "\<$name\(" "$1/tests/api.c" || { echo "$name is not called by tests/api.c" && status=1; }
+  grep -qE "\<$name\(" "$1"/tests/api*.c || { echo "$name is not called by tests/api*.c" && status=1; }
 done <"$place/functions"
-! grep -n '#include "' "$1/tests/api.c" || { echo "tests/api.c sees more than the installed headers" && status=1; }
+! grep -n '#include "' "$1"/tests/api*.c || { echo "tests/api*.c see more than the installed headers" && status=1; }
 exit $status

@@ -103,8 +103,8 @@ ves_search_options ves_search_options_default(void);
 ves_anneal ves_anneal_default(void);
 ves_polish ves_polish_default(void);
 
-/* What the search tells while it runs; always in the same order for the same seed. Called from the thread
- * that called ves_search_run. */
+/* What the search tells while it runs. Called from the thread that called ves_search_run; how often, and what
+ * is not counted yet, depends on the number of workers. */
 typedef struct ves_progress {
     int stage;              /* index */
     const char *stage_name; /* "anneal", "slsqp" ... */
@@ -114,13 +114,14 @@ typedef struct ves_progress {
     double value, violation;        /* best so far; violation: of a verdict. A run tells that of a design */
 } ves_progress;
 
-/* One evaluation, for the trace. */
+/* One evaluation, for the trace. The arrays live while it is told. */
 typedef struct ves_record {
     long evaluation;  /* counts from 1 in the order of the trace */
     int stage, chain; /* chain: of an annealing, or the number of the polish; -1: proofs and other questions
                          of the whole search */
     const double *x;
-    const double *constraint; /* [m] hold when status is VES_OK */
+    const double *constraint; /* [m] when status is VES_OK; else NULL */
+    const double *slope; /* [n] of the value, then [m][n] of the constraints, when they were wanted; NULL */
     double value, violation, temperature;
     ves_status status;
     bool accepted, gradient, proof; /* proof: asked with VES_WANT_PROOF */
@@ -131,7 +132,31 @@ typedef struct ves_search_hooks {
     void (*record)(void *data, const ves_record *record);
     bool (*stopped)(void *data); /* true: stop cleanly with the best so far; asked from any worker */
     void *data;
+
+    /* The journal. A search goes on in rounds; a round that is over is handed to `keep` as one block of bytes
+     * (whole), and a part of one that takes longer than 2 s, or that a stop breaks off, is handed over as well
+     * (not whole: its blocks are worthless once the whole one comes). One call at a time, from any worker.
+     * `recall` gives them back in the same order, first all the whole ones, then the parts of the round behind
+     * them; it answers false when there are no more. Called from the thread that called ves_search_run; the block
+     * must live until the next call. The search asks for nothing that the journal knows: it goes the same way
+     * again, in the time that it takes by itself, and then on from there to the same end, bit for bit. The
+     * same problem, options, number of stages and version are needed: VES_STALE tells when it is not so. */
+    void (*keep)(void *data, const void *block, size_t size, bool whole);
+    double (*clock)(void *data); /* s, from any worker: when parts are due. NULL: only at a stop */
+    bool (*recall)(void *data, const void **block, size_t *size, bool *whole);
 } ves_search_hooks;
+
+/* Reads a block, whole or not, of a problem with n variables and m constraints, one record after the other. The
+ * cursor begins as {0}. Returns false behind the last, or where the block is damaged. The arrays of the record
+ * are those of the block, which must be aligned as doubles are. record->evaluation counts from 1 in the block. */
+typedef struct ves_search_cursor {
+    size_t at, end;
+    unsigned part;
+    int member;
+    long evaluation;
+} ves_search_cursor;
+bool ves_search_block_read(const void *block, size_t size, int n, int m, ves_search_cursor *cursor,
+                           ves_record *record);
 
 /* A distinct feasible end of the search: within 1e-3 of the ranges (variables that the objective does not
  * feel left out) of no better one, nor the `same` as one. With gradients an end where the slope has not

@@ -40,7 +40,8 @@ extern "C" {
     X(ABSENT, -8, "this build does not have that feature")                                                   \
     X(USAGE, -9, "the command line is wrong")                                                                \
     X(INTERRUPTED, -10, "interrupted")                                                                       \
-    X(FAULT, -11, "a fault of vesica itself")
+    X(FAULT, -11, "a fault of vesica itself")                                                                \
+    X(STALE, -12, "the journal belongs to another run, or another version has written it")
 
 typedef enum ves_status {
 #define VES_STATUS_ENUM(name, value, sentence) VES_##name = value,

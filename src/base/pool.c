@@ -13,7 +13,7 @@ typedef struct worker {
 
 struct ves_pool {
     int workers;
-    pthread_mutex_t lock;
+    pthread_mutex_t lock, shared;
     pthread_cond_t begin, end;
     void (*task)(void *, int, int);
     void *data;
@@ -58,6 +58,7 @@ ves_pool *ves_pool_create(int workers)
     if (!pool) return NULL;
     pool->workers = 1;
     pthread_mutex_init(&pool->lock, NULL);
+    pthread_mutex_init(&pool->shared, NULL);
     pthread_cond_init(&pool->begin, NULL);
     pthread_cond_init(&pool->end, NULL);
     for (int k = 0; k < workers - 1; k++) {
@@ -82,7 +83,18 @@ void ves_pool_destroy(ves_pool *pool)
     pthread_cond_destroy(&pool->end);
     pthread_cond_destroy(&pool->begin);
     pthread_mutex_destroy(&pool->lock);
+    pthread_mutex_destroy(&pool->shared);
     ves_memory_free(pool);
+}
+
+void ves_pool_lock(ves_pool *pool)
+{
+    pthread_mutex_lock(&pool->shared);
+}
+
+void ves_pool_unlock(ves_pool *pool)
+{
+    pthread_mutex_unlock(&pool->shared);
 }
 
 int ves_pool_workers(const ves_pool *pool)

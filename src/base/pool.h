@@ -17,4 +17,8 @@ int ves_pool_workers(const ves_pool *pool);
  * same for two tasks at a time. */
 void ves_pool_run(ves_pool *pool, int count, void (*task)(void *data, int worker, int index), void *data);
 
+/* One task at a time, for what they must share. */
+void ves_pool_lock(ves_pool *pool);
+void ves_pool_unlock(ves_pool *pool);
+
 #endif

@@ -19,9 +19,10 @@ typedef struct anneal {
     int draws;                 /* of each chain in the warm-up */
     double *value, *violation; /* [chains][draws]; NAN: not measured */
     double c;
-    int quiet;     /* temperatures without an acceptance */
-    double proved; /* temperature of the last round of proofs */
-    long proofs;   /* that may still be asked for */
+    int quiet;         /* temperatures without an acceptance */
+    double proved;     /* temperature of the last round of proofs */
+    long proofs;       /* that may still be asked for */
+    ves_asker **asker; /* [chains] theirs */
     ves_point **best;
     bool *refused;
 } anneal;
@@ -33,17 +34,15 @@ static bool create(anneal *a)
     a->chain = ves_arena_take(arena, chains, sizeof *a->chain);
     a->value = ves_arena_take(arena, chains * draws, sizeof(double));
     a->violation = ves_arena_take(arena, chains * draws, sizeof(double));
+    a->asker = ves_arena_take(arena, chains, sizeof *a->asker);
     a->best = ves_arena_take(arena, chains, sizeof *a->best);
     a->refused = ves_arena_take(arena, chains, sizeof *a->refused);
-    if (!a->chain || !a->value || !a->violation || !a->best || !a->refused) return false;
-    for (int k = 0; k < a->chains; k++)
+    if (!a->chain || !a->value || !a->violation || !a->asker || !a->best || !a->refused) return false;
+    for (int k = 0; k < a->chains; k++) {
         if (!ves_chain_init(&a->chain[k], a->session, k, a->options)) return false;
+        a->asker[k] = &a->chain[k].asker;
+    }
     return true;
-}
-
-static void flush(anneal *a)
-{
-    for (int k = 0; k < a->chains; k++) ves_asker_flush(&a->chain[k].asker);
 }
 
 static void explore(void *data, int worker, int index)
@@ -113,9 +112,7 @@ static ves_status warm(anneal *a)
     const ves_anneal *options = a->options;
     bool needed = options->c0 == 0 || (session->m && options->weight == 0);
     int count = needed ? a->chains * a->draws : 0;
-    if (needed) ves_pool_run(session->pool, a->chains, explore, a);
-    flush(a);
-    if (session->fault) return session->fault;
+    if (needed) VES_TRY(ves_session_round(session, a->asker, a->chains, explore, a));
     double width = spread(a->value, count);
     double typical = median_violation(a->violation, count, session->tolerance);
     if (!(width > 0)) width = fmax(1e-3 * fabs(session->end[0].point.verdict.value), 1e-12);
@@ -200,9 +197,7 @@ static ves_status temperature(anneal *a, int m)
 {
     ves_session *session = a->session;
     a->c = session->temperature = a->schedule->temperature(&a->cooling, m);
-    ves_pool_run(session->pool, a->chains, cool, a);
-    flush(a);
-    if (session->fault) return session->fault;
+    VES_TRY(ves_session_round(session, a->asker, a->chains, cool, a));
     VES_TRY(log_temperature(a));
     for (int k = 0; k < a->chains; k++) ves_chain_settle(&a->chain[k]);
     if (a->c <= 0.5 * a->proved) VES_TRY(offer(a, false));

@@ -12,7 +12,7 @@ static ves_status judge(ves_asker *asker, ves_point *point, bool accepted)
 {
     ves_ask ask = {.x = point->x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
     ves_status status = ves_asker_judge(asker, &ask, &point->verdict);
-    if (status == VES_OK) ves_asker_record(asker, point->x, &point->verdict, false, NAN, accepted);
+    if (status == VES_OK) ves_asker_record(asker, false, NAN, accepted);
     return status;
 }
 

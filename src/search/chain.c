@@ -100,7 +100,7 @@ ves_status ves_chain_explore(ves_chain *chain, const ves_point *start)
     ves_point_place(session->problem, chain->candidate.u, chain->candidate.x);
     VES_TRY(judge(chain, HUGE_VAL));
     bool better = ves_verdict_better(&chain->candidate.verdict, &chain->best.verdict, session->tolerance);
-    ves_asker_record(&chain->asker, chain->candidate.x, &chain->candidate.verdict, false, NAN, better);
+    ves_asker_record(&chain->asker, false, NAN, better);
     remember(chain, &chain->candidate);
     return VES_OK;
 }
@@ -152,7 +152,7 @@ ves_status ves_chain_step(ves_chain *chain, double c)
     VES_TRY(judge(chain, cutoff(chain, limit)));
     double next = energy(chain, &chain->candidate);
     bool accepted = next - chain->energy < limit;
-    ves_asker_record(&chain->asker, chain->candidate.x, &chain->candidate.verdict, false, c, accepted);
+    ves_asker_record(&chain->asker, false, c, accepted);
     remember(chain, &chain->candidate);
     if (accepted) {
         swap(chain);

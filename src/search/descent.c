@@ -167,7 +167,7 @@ static ves_status shift(ves_descent *d, int i, double u, ves_verdict *verdict)
     ves_ask ask = {.x = d->shifted, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
     VES_TRY(ves_asker_judge(&d->asker, &ask, verdict));
     d->used++;
-    ves_asker_record(&d->asker, d->shifted, verdict, false, NAN, false);
+    ves_asker_record(&d->asker, false, NAN, false);
     return VES_OK;
 }
 
@@ -205,7 +205,7 @@ static ves_status judge_plainly(ves_descent *d)
 {
     const int n = d->session->n, m = d->session->m;
     ves_ask ask = {.x = d->x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
-    ves_asker_record(&d->asker, d->x, &d->last, true, NAN, false);
+    ves_asker_record(&d->asker, true, NAN, false);
     VES_TRY(ves_asker_judge(&d->asker, &ask, &d->last));
     d->used++;
     for (int i = 0; i < n; i++) d->last.gradient[i] = NAN;
@@ -253,7 +253,7 @@ static ves_status judge(ves_descent *d, bool slopes)
         d->broke = true;
         memcpy(d->broken, d->u, (size_t)session->n * sizeof(double));
     }
-    ves_asker_record(&d->asker, d->x, last, told, NAN, remember(d));
+    ves_asker_record(&d->asker, told, NAN, remember(d));
     if (exact && last->status == VES_OK) return mend(d);
     if (slopes && last->status == VES_OK)
         for (int i = 0; i < session->n; i++) VES_TRY(slope(d, i));

@@ -25,7 +25,7 @@ static ves_status between(ves_asker *asker, const ves_point *a, const ves_point 
     ves_point_place(session->problem, point->u, point->x);
     ves_ask ask = {.x = point->x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
     VES_TRY(ves_asker_judge(asker, &ask, &point->verdict));
-    ves_asker_record(asker, point->x, &point->verdict, false, NAN, false);
+    ves_asker_record(asker, false, NAN, false);
     bool good = point->verdict.status == VES_OK && point->verdict.violation <= session->tolerance;
     *value = good ? point->verdict.value : HUGE_VAL;
     return VES_OK;
@@ -194,7 +194,7 @@ static ves_status step_towards(ves_session *session, ves_asker *asker, ves_point
     ves_proof proof = VES_PROOF_REFUSED;
     *on = false;
     VES_TRY(ves_asker_judge(asker, &ask, &point->verdict));
-    ves_asker_record(asker, point->x, &point->verdict, false, NAN, false);
+    ves_asker_record(asker, false, NAN, false);
     ves_asker_flush(asker);
     const ves_verdict *v = &point->verdict;
     bool good =

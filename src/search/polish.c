@@ -28,7 +28,7 @@ typedef struct task {
 
 typedef struct polish {
     ves_session *session;
-    int tasks, first;
+    int tasks;
     long proofs; /* that may be asked for */
     task *task;
 } polish;
@@ -103,7 +103,7 @@ static ves_status advance(task *t)
 static void run(void *data, int worker, int index)
 {
     polish *p = data;
-    task *t = &p->task[p->first + index];
+    task *t = &p->task[index];
     t->descent.asker.worker = worker;
     ves_point_copy(&t->wait[0], t->start, p->session->n, p->session->m);
     t->above[0] = -1;
@@ -285,23 +285,17 @@ static ves_status collect(polish *p)
     return VES_OK;
 }
 
-/* Tasks run in waves of as many as there are workers, so that progress is told between; they do not depend on
- * one another. */
 static ves_status work(polish *p)
 {
     ves_session *session = p->session;
-    int wave = ves_pool_workers(session->pool);
-    for (p->first = 0; p->first < p->tasks && !ves_session_over(session); p->first += wave) {
-        int count = p->tasks - p->first < wave ? p->tasks - p->first : wave;
-        ves_pool_run(session->pool, count, run, p);
-        for (int k = 0; k < count; k++) {
-            ves_asker_flush(&p->task[p->first + k].descent.asker);
-            ves_session_progress(session);
-            if (p->task[p->first + k].memory) session->fault = VES_MEMORY;
-        }
-        if (session->fault) return session->fault;
-    }
-    return VES_OK;
+    ves_asker **asker = ves_arena_take(&session->arena, (size_t)p->tasks, sizeof *asker);
+    if (!asker) return VES_MEMORY;
+    for (int k = 0; k < p->tasks; k++) asker[k] = &p->task[k].descent.asker;
+    ves_status status = ves_session_round(session, asker, p->tasks, run, p);
+    ves_session_progress(session);
+    for (int k = 0; k < p->tasks; k++)
+        if (p->task[k].memory) status = session->fault = VES_MEMORY;
+    return status;
 }
 
 /* Few evaluations are better spent on few descents that arrive. */

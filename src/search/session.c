@@ -21,6 +21,9 @@ ves_status ves_session_init(ves_session *session, const ves_search_problem *prob
     session->stop = "the budget allows no more than the start";
     session->stage_name = "start";
     atomic_init(&session->stopped, false);
+    atomic_init(&session->under_way, 0);
+    session->listens = hooks && (hooks->record || hooks->progress || hooks->keep);
+    session->recalls = hooks && hooks->recall;
     ves_search_complete(session, options);
     session->pool = ves_pool_create(problem->workers);
     session->known =
@@ -35,6 +38,7 @@ ves_status ves_session_init(ves_session *session, const ves_search_problem *prob
 void ves_session_destroy(ves_session *session)
 {
     ves_pool_destroy(session->pool);
+    ves_bytes_free(&session->block);
     ves_memory_free(session->temperature_log);
     ves_arena_destroy(&session->arena);
     ves_arena_destroy(&session->kept);
@@ -134,7 +138,7 @@ void ves_session_progress(ves_session *session)
     if (!session->hooks.progress) return;
     ves_progress progress = {.stage = session->stage_index,
                              .stage_name = session->stage_name,
-                             .evaluations = session->told,
+                             .evaluations = session->told + atomic_load(&session->under_way),
                              .budget = session->budget,
                              .temperature = session->temperature,
                              .acceptance = session->acceptance,
@@ -191,7 +195,7 @@ ves_status ves_session_prove(ves_session *session, ves_point *point, ves_proof *
     ves_ask ask = {.x = point->x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
     ves_status status = ves_asker_judge(&asker, &ask, &verdict);
     point->proved = status == VES_OK && verdict.status == VES_OK;
-    if (status == VES_OK) ves_asker_record(&asker, point->x, &verdict, false, NAN, point->proved);
+    if (status == VES_OK) ves_asker_record(&asker, false, NAN, point->proved);
     asker.failed = 0; /* refused, not failed */
     ves_asker_flush(&asker);
     ves_asker_destroy(&asker);

@@ -10,6 +10,7 @@
 #include "base/arena.h"
 #include "base/pool.h"
 #include "base/random.h"
+#include "search/block.h"
 #include "search/point.h"
 #include "vesica/search.h"
 
@@ -29,26 +30,21 @@ typedef struct ves_end {
     bool stalled; /* at a slope that has not vanished: a kink, or no end at all */
 } ves_end;
 
-typedef struct ves_event {
-    double value, violation, temperature;
-    ves_status status;
-    bool accepted, gradient, proof;
-} ves_event;
-
-typedef struct ves_journal {
-    ves_event *event;
-    double *row; /* [room][n + m] where, and the constraints there: only for a record hook */
-    long count, room;
-} ves_journal;
-
-/* One member's line to the evaluator. */
+/* One member's line to the evaluator. What it has been answered since it was flushed last stands in `said`,
+ * as it will stand in a block; what a journal knows of that already is in `known`, and is not asked again. */
 typedef struct ves_asker {
     ves_session *session;
     int member, worker;
+    int place;   /* in its round */
     bool proves; /* asks even after a stop: an interrupted search still proves its best */
+    bool joined; /* a round, or alone: what is known of it has been looked for */
     long evaluations, gradients, failed; /* not yet merged */
     ves_status fault;                    /* negative: the search must end */
-    ves_journal journal;
+    ves_bytes said, known;
+    size_t last, told, saved,
+        heard;   /* in said: the last event; up to where it was told, and kept; in known */
+    bool whole;  /* known holds all of the round: no more may be asked */
+    double kept; /* s: when it was saved last */
 } ves_asker;
 
 struct ves_session {
@@ -74,8 +70,13 @@ struct ves_session {
     double temperature, acceptance;
 
     long evaluations, gradients, failed, refused;
-    long told;        /* events handed to the hooks */
-    ves_verdict seen; /* best told so far */
+    long told;             /* events handed to the hooks */
+    atomic_long under_way; /* answers of the round that were not told yet */
+    bool listens;          /* some hook wants to hear of evaluations */
+    bool recalls;          /* the journal may know more */
+    bool closed;           /* and hears no more: the search was stopped */
+    ves_bytes block;       /* under the lock of the pool */
+    ves_verdict seen;      /* best told so far */
     double
         *price; /* [m] objective per unit of violation: what a violation within the tolerance may not buy */
     double spread; /* of the objective, from the warm-up; 0: unknown */
@@ -128,6 +129,12 @@ typedef enum ves_proof { VES_PROOF_PASSED, VES_PROOF_REFUSED, VES_PROOF_STOPPED 
 bool ves_session_costs(const ves_session *session, const ves_point *point); /* would it be asked */
 ves_status ves_session_prove(ves_session *session, ves_point *point, ves_proof *proof);
 
+/* One round: runs the tasks, each of which asks through its own asker, on the pool; merges what they have
+ * been answered in their order, and hands it to the journal as one block. Where the journal knows the answers
+ * already none is asked for: so runs are resumed. */
+ves_status ves_session_round(ves_session *session, ves_asker *const *asker, int count,
+                             void (*task)(void *data, int worker, int index), void *data);
+
 /* Takes `room` ends for the next stage; NULL when out of memory. */
 ves_end *ves_session_ends(ves_session *session, int room);
 
@@ -137,13 +144,18 @@ void ves_asker_init(ves_asker *asker, ves_session *session, int member);
  * candidate; VES_INTERRUPTED (nothing asked) or the evaluator's fault else. */
 ves_status ves_asker_judge(ves_asker *asker, const ves_ask *ask, ves_verdict *verdict);
 
-/* For the trace: what has just been judged. */
-void ves_asker_record(ves_asker *asker, const double *x, const ves_verdict *verdict, bool gradient,
-                      double temperature, bool accepted);
+/* What the search made of what has just been judged; gradient: exact slopes were told. */
+void ves_asker_record(ves_asker *asker, bool gradient, double temperature, bool accepted);
 
-/* Hands the journal to the hooks and the counts to the session. Called in the order of the members, by the
- * caller's thread. */
+/* Ends a round of one: outside ves_session_round, by the caller's thread. */
 void ves_asker_flush(ves_asker *asker);
+
+/* For round.c: tells the hooks and the session what was said; keeps a part of a round that is not over. A
+ * round begins for its askers, and ends. */
+void ves_asker_merge(ves_asker *asker);
+void ves_asker_save(ves_asker *asker);
+ves_status ves_round_join(ves_session *session, ves_asker *const *asker, int count);
+void ves_round_leave(ves_session *session, ves_asker *const *asker, int count);
 void ves_asker_destroy(ves_asker *asker);
 
 /* The stages. */

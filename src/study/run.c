@@ -365,7 +365,8 @@ static ves_status search_with(study *s, const ves_search_options *options, const
     ves_run *run = s->run;
     ves_search_problem problem = ves_plan_search(s->plan, run->jobs);
     ves_search_result *result = NULL;
-    ves_search_hooks hooks = {hear_progress, hear_record, hear_stopped, s};
+    ves_search_hooks hooks = {
+        .progress = hear_progress, .record = hear_record, .stopped = hear_stopped, .data = s};
     if (from) problem.start = from[0], problem.other = from + 1, problem.others = count - 1;
     s->from = problem.start;
     s->stages_before = run->times.stages;

@@ -1,0 +1,53 @@
+/* What a program does that uses the search alone, with the installed headers alone. */
+#include <criterion/criterion.h>
+#include <math.h>
+
+#include <vesica/search.h>
+
+typedef struct told {
+    long records, slopes, blocks;
+} told;
+
+/* Least x + y on x^2 + y^2 <= 2 is at (-1, -1). */
+static ves_status disk(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
+{
+    (void)data, (void)worker;
+    const double *x = ask->x;
+    verdict->value = x[0] + x[1];
+    verdict->constraint[0] = x[0] * x[0] + x[1] * x[1] - 2;
+    if (ask->want & VES_WANT_GRADIENT) {
+        verdict->gradient[0] = verdict->gradient[1] = 1;
+        verdict->jacobian[0] = 2 * x[0];
+        verdict->jacobian[1] = 2 * x[1];
+    }
+    return VES_OK;
+}
+
+static void count_records(void *data, const void *block, size_t size, bool whole)
+{
+    told *t = data;
+    ves_search_cursor cursor = {0};
+    ves_record record;
+    cr_expect(whole);
+    t->blocks++;
+    while (ves_search_block_read(block, size, 2, 1, &cursor, &record)) {
+        t->records++;
+        t->slopes += record.slope != NULL;
+    }
+}
+
+Test(api_search, a_callback_is_minimised_and_its_journal_read)
+{
+    const double lower[] = {-3, -3}, upper[] = {3, 3}, start[] = {2, 1};
+    const ves_search_problem problem = {
+        .n = 2, .m = 1, .lower = lower, .upper = upper, .start = start, .gradients = true, .evaluate = disk};
+    ves_search_options options = ves_search_options_default();
+    options.evaluations = 2000;
+    told t = {0};
+    const ves_search_hooks hooks = {.keep = count_records, .data = &t};
+    ves_search_result *result;
+    cr_assert_eq(ves_search_run(&problem, &options, &hooks, &result), VES_OK);
+    cr_expect(result->feasible && fabs(result->value + 2) < 1e-6, "%.12g", result->value);
+    cr_expect(t.blocks > 2 && t.records == result->evaluations && t.slopes == result->gradients);
+    ves_search_result_destroy(result);
+}
