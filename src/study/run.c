@@ -1,5 +1,3 @@
-#include "study/run.h"
-
 #include <math.h>
 #include <string.h>
 #include <time.h>
@@ -8,62 +6,30 @@
 #include "base/diag.h"
 #include "study/folder.h"
 #include "study/idle.h"
+#include "study/inside.h"
 #include "study/judge.h"
 #include "study/keep.h"
 #include "study/settle.h"
-#include "study/trace.h"
 
-enum { JOBS_MOST = 256, STATUS_KINDS = 64, SENTENCE = 200 };
+enum { JOBS_MOST = 256 };
 
-/* A grid that changes a measure by more than this is worth a word. */
-static const double UNSETTLED = 1e-6;
-
-/* All that one study holds while it runs. */
-typedef struct study {
-    const ves_problem *problem;
-    const ves_run_options *options;
-    const ves_run_hooks *hooks;
-    ves_diag *diag;
-    ves_run *run;
-    ves_arena *arena; /* of the run */
-    ves_plan **plan;  /* [run->jobs] */
-    ves_search_options search;
-    ves_tracer tracer;
-    double wall, cpu, mark; /* clocks: the beginning; the stage's beginning */
-    int stage;
-    int stages_before; /* of searches that are over, and their evaluations */
-    long evaluations_before;
-    long left;        /* of the budget */
-    ves_verdict seen; /* the best that the search has told, and its violation as in a design */
-    double seen_violation;
-    long failed[STATUS_KINDS]; /* candidates that could not be measured, by status */
-    ves_status files;          /* the first file that could not be written */
-    const double *from;        /* [variables] where the search at hand began */
-} study;
-
-/* Appends a sentence to what the result says of itself. */
-static ves_status note(study *s, const char *text)
+ves_status ves_study_note(ves_study *s, const char *text)
 {
     ves_run *run = s->run;
     const char **list = ves_arena_take(s->arena, (size_t)run->notes + 1, sizeof *list);
     char *copy = ves_arena_text(s->arena, text, strlen(text));
-    if (!list || !copy) return VES_MEMORY;
+    if (!list || !copy) return ves_diag_fail(s->diag, VES_MEMORY);
     for (int k = 0; k < run->notes; k++) list[k] = run->note[k];
     list[run->notes++] = copy;
     run->note = list;
     return VES_OK;
 }
 
-static ves_status keep_note(study *s, const char *text)
-{
-    return note(s, text) == VES_OK ? VES_OK : ves_diag_fail(s->diag, VES_MEMORY);
-}
-
 /* What is wrong with the design that the result shows is on the screen at once, and in the result. */
-static ves_status warn(study *s, ves_status why, const char *text)
+static ves_status warn(ves_study *s, ves_status why, const char *text)
 {
     ves_diag_add(s->diag, VES_WARNING, why, (ves_mark){0}, "%s", text);
-    return keep_note(s, text);
+    return ves_study_note(s, text);
 }
 
 static double seconds(clockid_t clock)
@@ -86,13 +52,13 @@ static int machine_threads(void)
     return count < 1 ? 1 : count > JOBS_MOST ? JOBS_MOST : (int)count;
 }
 
-static bool searches(const study *s)
+static bool searches(const ves_study *s)
 {
     const ves_problem *p = s->problem;
     return !s->options->once && p->variables > 0 && (p->objective || p->constraints);
 }
 
-static void set_up(study *s)
+static void set_up(ves_study *s)
 {
     ves_run *run = s->run;
     const ves_run_options *o = s->options;
@@ -114,13 +80,12 @@ static void set_up(study *s)
         strftime(run->times.started, sizeof run->times.started, "%Y-%m-%dT%H:%M:%SZ", &utc);
 }
 
-static void plans_destroy(ves_plan **plan, int count)
+void ves_study_plans_destroy(ves_plan **plan, int count)
 {
     for (int k = 0; plan && k < count; k++) ves_plan_destroy(plan[k]);
 }
 
-/* As many as jobs; the others share the grid of the first, which speaks for all. */
-static ves_status plans_fill(study *s, const ves_plan_options *options, ves_plan **plan, ves_diag *diag)
+ves_status ves_study_plans(ves_study *s, const ves_plan_options *options, ves_plan **plan, ves_diag *diag)
 {
     int grid[2];
     VES_TRY(ves_plan_create(s->problem, options, &plan[0], diag));
@@ -133,35 +98,35 @@ static ves_status plans_fill(study *s, const ves_plan_options *options, ves_plan
     return VES_OK;
 }
 
-static ves_status plans_make(study *s)
+static ves_status plans_make(ves_study *s)
 {
     ves_run *run = s->run;
     s->plan = ves_arena_take(s->arena, (size_t)run->jobs, sizeof *s->plan);
     if (!s->plan) return ves_diag_fail(s->diag, VES_MEMORY);
-    VES_TRY(plans_fill(s, NULL, s->plan, s->diag));
+    VES_TRY(ves_study_plans(s, NULL, s->plan, s->diag));
     run->change = ves_plan_grid(s->plan[0], run->quadrature);
     return VES_OK;
 }
 
-static ves_status measure(study *s, const double *x, int level, ves_design *design)
+ves_status ves_study_measure(ves_study *s, const double *x, int level, ves_design *design)
 {
     ves_status status = ves_design_measure(s->plan[0], s->problem, x, level, s->arena, design);
     return status == VES_OK ? VES_OK : ves_diag_fail(s->diag, status);
 }
 
-static ves_status start_measure(study *s)
+static ves_status start_measure(ves_study *s)
 {
     ves_run *run = s->run;
-    VES_TRY(measure(s, NULL, 0, &run->start));
-    char text[SENTENCE];
+    VES_TRY(ves_study_measure(s, NULL, 0, &run->start));
+    char text[VES_SENTENCE];
     ves_status status = run->start.status;
     if (status != VES_OK) {
         run->change = NAN;
         snprintf(text, sizeof text, "the start design cannot be measured: %s", ves_status_text(status));
         ves_plan_why(s->plan[0], status, "the start design cannot be measured", s->diag);
-        return run->searched ? VES_OK : keep_note(s, text); /* a search notes it itself */
+        return run->searched ? VES_OK : ves_study_note(s, text); /* a search notes it itself */
     }
-    if (!(run->change > UNSETTLED)) return VES_OK;
+    if (!(run->change > VES_UNSETTLED)) return VES_OK;
     snprintf(text, sizeof text,
              "%d x %d nodes a patch still change a measure of the start design by %.1e of its size",
              run->quadrature[0], run->quadrature[1], run->change);
@@ -169,7 +134,7 @@ static ves_status start_measure(study *s)
 }
 
 /* Says which variables seem to do nothing. */
-static ves_status idle_find(study *s)
+static ves_status idle_find(ves_study *s)
 {
     const ves_problem *p = s->problem;
     size_t n = (size_t)p->variables;
@@ -185,12 +150,12 @@ static ves_status idle_find(study *s)
     }
     if (!text) return VES_OK;
     text = ves_arena_format(s->arena, "%s: no effect on what is judged, in the designs looked at", text);
-    return text ? keep_note(s, text) : ves_diag_fail(s->diag, VES_MEMORY);
+    return text ? ves_study_note(s, text) : ves_diag_fail(s->diag, VES_MEMORY);
 }
 
 /* --- the folder: a disk that fills up later does not stop the search --- */
 
-static void folder_begin(study *s)
+static void folder_begin(ves_study *s)
 {
     const ves_run_options *o = s->options;
     ves_run *run = s->run;
@@ -208,7 +173,7 @@ static void folder_begin(study *s)
     s->files = path ? ves_tracer_begin(&s->tracer, path, s->arena) : ves_diag_fail(s->diag, VES_MEMORY);
 }
 
-static void folder_end(study *s)
+static void folder_end(ves_study *s)
 {
     if (!s->run->folder) return;
     ves_status trace = ves_tracer_end(&s->tracer),
@@ -216,61 +181,22 @@ static void folder_end(study *s)
     if (s->files == VES_OK) s->files = trace != VES_OK ? trace : kept;
 }
 
+/* The dear checks of the start; a note where they fail. */
+static ves_status start_prove(ves_study *s, const char *what, ves_status *proof)
+{
+    char text[VES_SENTENCE];
+    ves_verdict verdict = {0};
+    ves_ask ask = {.x = s->run->start.x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
+    ves_status status = ves_plan_evaluate(s->plan[0], &ask, &verdict);
+    if (status != VES_OK) return ves_diag_fail(s->diag, status);
+    if (proof) *proof = verdict.status;
+    snprintf(text, sizeof text, "the %s did not pass its checks: %s", what, ves_status_text(verdict.status));
+    return verdict.status == VES_OK ? VES_OK : ves_study_note(s, text);
+}
+
 /* --- the search --- */
 
-/* Stages are timed by the records that they send. */
-static void stage_enter(study *s, int index)
-{
-    ves_run_times *t = &s->run->times;
-    double now = ves_study_clock();
-    if (s->stage >= 0) t->stage[s->stage].wall += now - s->mark;
-    s->mark = now;
-    s->stage = index;
-    if (index >= t->stages) t->stages = index + 1;
-}
-
-static void hear_record(void *data, const ves_record *heard)
-{
-    study *s = data;
-    ves_record record = *heard;
-    int kind = (int)record.status;
-    record.evaluation += s->evaluations_before;
-    record.stage += s->stages_before;
-    if (record.stage >= VES_STAGES) record.stage = VES_STAGES - 1;
-    if (record.stage != s->stage && record.stage >= 0) stage_enter(s, record.stage);
-    s->run->times.stage[s->stage].evaluations++;
-    bool failed = record.status != VES_CUT && !record.proof; /* cut and refused ones could be measured */
-    if (failed && kind > 0 && kind < STATUS_KINDS) s->failed[kind]++;
-    const ves_verdict verdict = {
-        .status = record.status, .value = record.value, .violation = record.violation};
-    if (ves_verdict_better(&verdict, &s->seen, VES_FEASIBLE)) {
-        s->seen = verdict;
-        s->seen_violation = ves_design_violation(s->problem, &record);
-    }
-    ves_tracer_write(&s->tracer, &record);
-}
-
-static void hear_progress(void *data, const ves_progress *progress)
-{
-    study *s = data;
-    ves_progress shown = *progress;
-    if (s->problem->maximize) shown.value = -shown.value;
-    if (shown.any) shown.violation = s->seen_violation;
-    shown.stage += s->stages_before;
-    shown.evaluations += s->evaluations_before;
-    shown.budget += s->evaluations_before;
-    if (shown.stage >= 0 && shown.stage < VES_STAGES && shown.stage_name)
-        snprintf(s->run->times.stage[shown.stage].name, VES_RUN_NAME, "%s", shown.stage_name);
-    if (s->hooks->progress) s->hooks->progress(s->hooks->data, &shown);
-}
-
-static bool hear_stopped(void *data)
-{
-    study *s = data;
-    return s->hooks->stopped && s->hooks->stopped(s->hooks->data);
-}
-
-static void stage_names(study *s)
+static void stage_names(ves_study *s)
 {
     for (int k = 0; k < VES_STAGES; k++) {
         bool polish = s->search.stages ? s->search.stage[k].kind == VES_STAGE_POLISH : k == 1;
@@ -278,209 +204,25 @@ static void stage_names(study *s)
     }
 }
 
-/* Variables that do nothing go back to their start. */
-static void rest(study *s, double *x)
-{
-    const bool *idle = s->run->idle;
-    for (int k = 0; k < s->problem->variables; k++)
-        if (idle && idle[k]) {
-            ves_study_rest(s->plan[0], s->problem, idle, s->arena, x);
-            return;
-        }
-}
-
-static ves_status optima_take(study *s, const ves_search_result *r)
-{
-    double sign = s->problem->maximize ? -1 : 1;
-    ves_optimum *optimum = ves_arena_take(s->arena, (size_t)r->optima, sizeof *optimum);
-    if (!optimum) return VES_MEMORY;
-    for (int k = 0; k < r->optima; k++) {
-        double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
-        if (!x) return VES_MEMORY;
-        memcpy(x, r->optimum[k].x, sizeof *x * (size_t)r->n);
-        rest(s, x);
-        optimum[k] = r->optimum[k];
-        optimum[k].x = x;
-        optimum[k].value *= sign;
-        ves_design design; /* its violation is in units of sizes, a verdict's in those of each `within` */
-        VES_TRY(ves_design_measure(s->plan[0], s->problem, x, 0, s->arena, &design));
-        optimum[k].violation = design.violation;
-    }
-    s->run->optimum = optimum;
-    s->run->optima = r->optima;
-    return VES_OK;
-}
-
-static ves_status words_take(study *s, const ves_search_result *r)
-{
-    ves_run *run = s->run;
-    run->stop = ves_arena_text(s->arena, r->stop, strlen(r->stop));
-    if (!run->stop) return VES_MEMORY;
-    for (int k = 0; k < r->notes; k++) VES_TRY(note(s, r->note[k]));
-    return VES_OK;
-}
-
-static ves_status counts_take(study *s, const ves_search_result *r)
-{
-    ves_run *run = s->run;
-    ves_temperature *temperature = ves_arena_take(s->arena, (size_t)r->temperatures, sizeof *temperature);
-    ves_run_failure *failure = ves_arena_take(s->arena, STATUS_KINDS, sizeof *failure);
-    if (!temperature || !failure) return VES_MEMORY;
-    for (int k = 0; k < r->temperatures; k++) temperature[k] = r->temperature[k];
-    run->failures = 0;
-    for (int k = 0; k < STATUS_KINDS; k++)
-        if (s->failed[k]) failure[run->failures++] = (ves_run_failure){(ves_status)k, s->failed[k]};
-    run->failure = failure;
-    if (!r->temperatures) return VES_OK;
-    run->temperature = temperature;
-    run->temperatures = r->temperatures;
-    return VES_OK;
-}
-
-static ves_status result_take(study *s, const ves_search_result *r)
-{
-    ves_run *run = s->run;
-    run->ending = r->ending;
-    run->any = r->any || run->start.status == VES_OK; /* a search may be stopped before it has begun */
-    run->evaluations += r->evaluations;
-    run->gradients += r->gradients;
-    run->refused += r->refused;
-    if (words_take(s, r) != VES_OK || counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK)
-        return ves_diag_fail(s->diag, VES_MEMORY);
-    double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
-    if (!x) return ves_diag_fail(s->diag, VES_MEMORY);
-    const double *from = r->any ? r->x : s->from; /* or no point is better than another */
-    memcpy(x, from, sizeof *x * (size_t)r->n);
-    rest(s, x);
-    VES_TRY(measure(s, x, 1, &run->finer));
-    VES_TRY(measure(s, x, 0, &run->best));
-    run->feasible = r->any && r->feasible && run->best.status == VES_OK;
-    return VES_OK;
-}
-
-/* from: where to begin, or NULL for the start of the file. */
-static ves_status search_with(study *s, const ves_search_options *options, const double *const *from,
-                              int count)
-{
-    ves_run *run = s->run;
-    ves_search_problem problem = ves_plan_search(s->plan, run->jobs);
-    ves_search_result *result = NULL;
-    ves_search_hooks hooks = {
-        .progress = hear_progress, .record = hear_record, .stopped = hear_stopped, .data = s};
-    if (from) problem.start = from[0], problem.other = from + 1, problem.others = count - 1;
-    s->from = problem.start;
-    s->stages_before = run->times.stages;
-    s->evaluations_before = run->evaluations;
-    s->stage = -1;
-    s->seen = (ves_verdict){.status = VES_NO_NUMBER};
-    double begun = ves_study_clock();
-    ves_status status = ves_search_run(&problem, options, &hooks, &result);
-    stage_enter(s, s->stage);
-    run->times.search += ves_study_clock() - begun;
-    if (!result) return ves_diag_fail(s->diag, status);
-    s->left = result->budget - result->evaluations;
-    status = result_take(s, result);
-    ves_search_result_destroy(result);
-    return status;
-}
-
-/* The optima, the best first, polished once more on the finer grid; what is reported is measured there. */
-static ves_status polish_again(study *s, const ves_search_options *again)
-{
-    ves_run *run = s->run;
-    const ves_optimum *old = run->optimum;
-    const int count = run->optima;
-    const double **from = ves_arena_take(s->arena, (size_t)count + 1, sizeof *from);
-    if (!from) return ves_diag_fail(s->diag, VES_MEMORY);
-    from[0] = run->best.x;
-    for (int k = 1; k < count; k++) from[k] = old[k].x;
-    VES_TRY(search_with(s, again, from, count > 1 ? count : 1));
-    if (ves_settle_hits(old, count, s->arena, run) != VES_OK) return ves_diag_fail(s->diag, VES_MEMORY);
-    if (run->optima >= count) return VES_OK;
-    char text[SENTENCE];
-    snprintf(text, sizeof text, "of the %d optima on the coarser grid %d were%s found again on the finer one",
-             count, run->optima, run->ending == VES_ENDED_STOPPED ? ", before the stop," : "");
-    return keep_note(s, text);
-}
-
-static ves_status search_finer(study *s, const ves_search_options *again, const int grid[2], double change)
-{
-    ves_run *run = s->run;
-    const ves_plan_options finer = {{grid[0], grid[1]}};
-    ves_plan **coarse = s->plan, **plan = ves_arena_take(s->arena, (size_t)run->jobs, sizeof *plan);
-    if (!plan) return ves_diag_fail(s->diag, VES_MEMORY);
-    s->plan = plan;
-    ves_status status = plans_fill(s, &finer, plan, NULL);
-    plans_destroy(coarse, run->jobs);
-    if (status != VES_OK) return ves_diag_fail(s->diag, status);
-    run->quadrature[0] = grid[0], run->quadrature[1] = grid[1];
-    run->change = change;
-    VES_TRY(measure(s, NULL, 0, &run->start));
-    return polish_again(s, again);
-}
-
-/* When the grid does not settle the best: another one, or the advice to give one. */
-static ves_status settle_best(study *s)
-{
-    ves_run *run = s->run;
-    const int *q = run->quadrature;
-    const double off = ves_plan_change(s->plan[0], &run->best, &run->finer);
-    if (!(off > UNSETTLED)) return VES_OK;
-    int grid[2];
-    double change;
-    char text[SENTENCE];
-    ves_search_options again;
-    ves_status status = ves_settle_grid(run, grid, &change);
-    if (status != VES_OK) return ves_diag_fail(s->diag, status);
-    if (grid[0] == q[0] && grid[1] == q[1]) return VES_OK;
-    bool chosen = s->problem->quadrature[0] == 0 && s->problem->quadrature[1] == 0;
-    if (hear_stopped(s)) run->ending = VES_ENDED_STOPPED; /* the choice of a grid takes its time */
-    if (chosen && run->ending != VES_ENDED_STOPPED && ves_settle_search(&s->search, run, s->left, &again)) {
-        snprintf(text, sizeof text,
-                 "%d x %d nodes a patch, chosen at the start design, left the best unsettled by %.1e: "
-                 "polished once more on %d x %d, chosen at the best",
-                 q[0], q[1], off, grid[0], grid[1]);
-        VES_TRY(keep_note(s, text));
-        return search_finer(s, &again, grid, change);
-    }
-    snprintf(text, sizeof text,
-             "%d x %d nodes a patch leave the result unsettled by %.1e: give quadrature: {u: %d, v: %d}",
-             q[0], q[1], off, grid[0], grid[1]);
-    return keep_note(s, text);
-}
-
-/* The dear checks of the start; a note where they fail. */
-static ves_status start_prove(study *s, const char *what, ves_status *proof)
-{
-    char text[SENTENCE];
-    ves_verdict verdict = {0};
-    ves_ask ask = {.x = s->run->start.x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
-    ves_status status = ves_plan_evaluate(s->plan[0], &ask, &verdict);
-    if (status != VES_OK) return ves_diag_fail(s->diag, status);
-    if (proof) *proof = verdict.status;
-    snprintf(text, sizeof text, "the %s did not pass its checks: %s", what, ves_status_text(verdict.status));
-    return verdict.status == VES_OK ? VES_OK : keep_note(s, text);
-}
-
-static ves_status search(study *s)
+static ves_status search(ves_study *s)
 {
     stage_names(s);
     /* a search goes on from a start that fails its proof */
     if (s->run->start.status == VES_OK) VES_TRY(start_prove(s, "start design", NULL));
-    VES_TRY(search_with(s, &s->search, NULL, 0));
-    return s->run->any ? settle_best(s) : VES_OK;
+    VES_TRY(ves_study_search(s, &s->search, NULL, 0));
+    return s->run->any ? ves_settle_best(s) : VES_OK;
 }
 
 /* --- without a search --- */
 
-static ves_status once(study *s)
+static ves_status once(ves_study *s)
 {
     ves_run *run = s->run;
     run->evaluations = 1;
     run->any = run->start.status == VES_OK;
     run->feasible = run->start.feasible;
-    VES_TRY(measure(s, run->start.x, 1, &run->finer));
-    VES_TRY(measure(s, run->start.x, 0, &run->best));
+    VES_TRY(ves_study_measure(s, run->start.x, 1, &run->finer));
+    VES_TRY(ves_study_measure(s, run->start.x, 0, &run->best));
     if (!run->any || (s->options->once && !s->options->prove)) return VES_OK;
     VES_TRY(start_prove(s, "design", &run->proof));
     if (run->proof == VES_OK) return VES_OK;
@@ -491,7 +233,7 @@ static ves_status once(study *s)
 
 /* --- the whole --- */
 
-static ves_status work(study *s)
+static ves_status work(ves_study *s)
 {
     ves_run *run = s->run;
     VES_TRY(plans_make(s));
@@ -530,17 +272,17 @@ ves_status ves_run_create(const ves_problem *problem, const ves_run_options *opt
     if (options) VES_TRY(options_check(options, diag));
     ves_run_box *box = ves_memory_take(sizeof *box);
     if (!box) return ves_diag_fail(diag, VES_MEMORY);
-    study s = {.problem = problem,
-               .options = options ? options : &plain,
-               .hooks = hooks ? hooks : &deaf,
-               .diag = diag,
-               .run = &box->run,
-               .arena = &box->arena};
+    ves_study s = {.problem = problem,
+                   .options = options ? options : &plain,
+                   .hooks = hooks ? hooks : &deaf,
+                   .diag = diag,
+                   .run = &box->run,
+                   .arena = &box->arena};
     s.wall = ves_study_clock();
     s.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
     set_up(&s);
     ves_status status = work(&s);
-    plans_destroy(s.plan, s.run->jobs);
+    ves_study_plans_destroy(s.plan, s.run->jobs);
     ves_tracer_end(&s.tracer);
     if (status != VES_OK) {
         ves_run_destroy(&box->run);

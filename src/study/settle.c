@@ -1,8 +1,9 @@
 #include "study/settle.h"
 
 #include <math.h>
+#include <stdio.h>
 
-#include "problem/problem.h"
+#include "base/diag.h"
 
 enum { POLISH_LEAST = 10 }; /* evaluations for each variable, as a polish itself counts */
 
@@ -62,4 +63,70 @@ ves_status ves_settle_hits(const ves_optimum *old, int count, ves_arena *arena, 
         if (!optimum[k].hits) optimum[k].hits = run->optimum[k].hits;
     run->optimum = optimum;
     return VES_OK;
+}
+
+/* The optima, the best first, polished once more on the finer grid; what is reported is measured there. */
+static ves_status polish_again(ves_study *s, const ves_search_options *again)
+{
+    ves_run *run = s->run;
+    const ves_optimum *old = run->optimum;
+    const int count = run->optima;
+    const double **from = ves_arena_take(s->arena, (size_t)count + 1, sizeof *from);
+    if (!from) return ves_diag_fail(s->diag, VES_MEMORY);
+    from[0] = run->best.x;
+    for (int k = 1; k < count; k++) from[k] = old[k].x;
+    VES_TRY(ves_study_search(s, again, from, count > 1 ? count : 1));
+    if (ves_settle_hits(old, count, s->arena, run) != VES_OK) return ves_diag_fail(s->diag, VES_MEMORY);
+    if (run->optima >= count) return VES_OK;
+    char text[VES_SENTENCE];
+    snprintf(text, sizeof text, "of the %d optima on the coarser grid %d were%s found again on the finer one",
+             count, run->optima, run->ending == VES_ENDED_STOPPED ? ", before the stop," : "");
+    return ves_study_note(s, text);
+}
+
+static ves_status search_finer(ves_study *s, const ves_search_options *again, const int grid[2],
+                               double change)
+{
+    ves_run *run = s->run;
+    const ves_plan_options finer = {{grid[0], grid[1]}};
+    ves_plan **coarse = s->plan, **plan = ves_arena_take(s->arena, (size_t)run->jobs, sizeof *plan);
+    if (!plan) return ves_diag_fail(s->diag, VES_MEMORY);
+    s->plan = plan;
+    ves_status status = ves_study_plans(s, &finer, plan, NULL);
+    ves_study_plans_destroy(coarse, run->jobs);
+    if (status != VES_OK) return ves_diag_fail(s->diag, status);
+    run->quadrature[0] = grid[0], run->quadrature[1] = grid[1];
+    run->change = change;
+    VES_TRY(ves_study_measure(s, NULL, 0, &run->start));
+    return polish_again(s, again);
+}
+
+/* When the grid does not settle the best: another one, or the advice to give one. */
+ves_status ves_settle_best(ves_study *s)
+{
+    ves_run *run = s->run;
+    const int *q = run->quadrature;
+    const double off = ves_plan_change(s->plan[0], &run->best, &run->finer);
+    if (!(off > VES_UNSETTLED)) return VES_OK;
+    int grid[2];
+    double change;
+    char text[VES_SENTENCE];
+    ves_search_options again;
+    ves_status status = ves_settle_grid(run, grid, &change);
+    if (status != VES_OK) return ves_diag_fail(s->diag, status);
+    if (grid[0] == q[0] && grid[1] == q[1]) return VES_OK;
+    bool chosen = s->problem->quadrature[0] == 0 && s->problem->quadrature[1] == 0;
+    if (ves_study_stopped(s)) run->ending = VES_ENDED_STOPPED; /* the choice of a grid takes its time */
+    if (chosen && run->ending != VES_ENDED_STOPPED && ves_settle_search(&s->search, run, s->left, &again)) {
+        snprintf(text, sizeof text,
+                 "%d x %d nodes a patch, chosen at the start design, left the best unsettled by %.1e: "
+                 "polished once more on %d x %d, chosen at the best",
+                 q[0], q[1], off, grid[0], grid[1]);
+        VES_TRY(ves_study_note(s, text));
+        return search_finer(s, &again, grid, change);
+    }
+    snprintf(text, sizeof text,
+             "%d x %d nodes a patch leave the result unsettled by %.1e: give quadrature: {u: %d, v: %d}",
+             q[0], q[1], off, grid[0], grid[1]);
+    return ves_study_note(s, text);
 }

@@ -3,8 +3,7 @@
 #ifndef VES_STUDY_SETTLE_H
 #define VES_STUDY_SETTLE_H
 
-#include "base/arena.h"
-#include "vesica/run.h"
+#include "study/inside.h"
 
 /* The grid that the best of a run asks for, nowhere coarser than its own. change: what the choice left.
  * Returns VES_OK or a fault. */
@@ -18,5 +17,9 @@ bool ves_settle_search(const ves_search_options *search, const ves_run *run, lon
 /* The optima of a run that were polished once more were found as often as the old ones, of the coarser grid,
  * from which they come. */
 ves_status ves_settle_hits(const ves_optimum *old, int count, ves_arena *arena, ves_run *run);
+
+/* After a search: when the grid does not settle the best, another one and a last polish there, or the advice to
+ * give one. */
+ves_status ves_settle_best(ves_study *study);
 
 #endif

@@ -1,0 +1,169 @@
+#include <math.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "study/idle.h"
+#include "study/inside.h"
+
+/* The search of a run: what it tells while it goes on, and what is taken from it. */
+
+/* Stages are timed by the records that they send. */
+static void stage_enter(ves_study *s, int index)
+{
+    ves_run_times *t = &s->run->times;
+    double now = ves_study_clock();
+    if (s->stage >= 0) t->stage[s->stage].wall += now - s->mark;
+    s->mark = now;
+    s->stage = index;
+    if (index >= t->stages) t->stages = index + 1;
+}
+
+static void hear_record(void *data, const ves_record *heard)
+{
+    ves_study *s = data;
+    ves_record record = *heard;
+    int kind = (int)record.status;
+    record.evaluation += s->evaluations_before;
+    record.stage += s->stages_before;
+    if (record.stage >= VES_STAGES) record.stage = VES_STAGES - 1;
+    if (record.stage != s->stage && record.stage >= 0) stage_enter(s, record.stage);
+    s->run->times.stage[s->stage].evaluations++;
+    bool failed = record.status != VES_CUT && !record.proof; /* cut and refused ones could be measured */
+    if (failed && kind > 0 && kind < VES_FAILURES) s->failed[kind]++;
+    const ves_verdict verdict = {
+        .status = record.status, .value = record.value, .violation = record.violation};
+    if (ves_verdict_better(&verdict, &s->seen, VES_FEASIBLE)) {
+        s->seen = verdict;
+        s->seen_violation = ves_design_violation(s->problem, &record);
+    }
+    ves_tracer_write(&s->tracer, &record);
+}
+
+static void hear_progress(void *data, const ves_progress *progress)
+{
+    ves_study *s = data;
+    ves_progress shown = *progress;
+    if (s->problem->maximize) shown.value = -shown.value;
+    if (shown.any) shown.violation = s->seen_violation;
+    shown.stage += s->stages_before;
+    shown.evaluations += s->evaluations_before;
+    shown.budget += s->evaluations_before;
+    if (shown.stage >= 0 && shown.stage < VES_STAGES && shown.stage_name)
+        snprintf(s->run->times.stage[shown.stage].name, VES_RUN_NAME, "%s", shown.stage_name);
+    if (s->hooks->progress) s->hooks->progress(s->hooks->data, &shown);
+}
+
+bool ves_study_stopped(ves_study *study)
+{
+    return study->hooks->stopped && study->hooks->stopped(study->hooks->data);
+}
+
+static bool hear_stopped(void *data)
+{
+    return ves_study_stopped(data);
+}
+
+/* Variables that do nothing go back to their start. */
+static void rest(ves_study *s, double *x)
+{
+    const bool *idle = s->run->idle;
+    for (int k = 0; k < s->problem->variables; k++)
+        if (idle && idle[k]) {
+            ves_study_rest(s->plan[0], s->problem, idle, s->arena, x);
+            return;
+        }
+}
+
+static ves_status optima_take(ves_study *s, const ves_search_result *r)
+{
+    double sign = s->problem->maximize ? -1 : 1;
+    ves_optimum *optimum = ves_arena_take(s->arena, (size_t)r->optima, sizeof *optimum);
+    if (!optimum) return VES_MEMORY;
+    for (int k = 0; k < r->optima; k++) {
+        double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
+        if (!x) return VES_MEMORY;
+        memcpy(x, r->optimum[k].x, sizeof *x * (size_t)r->n);
+        rest(s, x);
+        optimum[k] = r->optimum[k];
+        optimum[k].x = x;
+        optimum[k].value *= sign;
+        ves_design design; /* its violation is in units of sizes, a verdict's in those of each `within` */
+        VES_TRY(ves_design_measure(s->plan[0], s->problem, x, 0, s->arena, &design));
+        optimum[k].violation = design.violation;
+    }
+    s->run->optimum = optimum;
+    s->run->optima = r->optima;
+    return VES_OK;
+}
+
+static ves_status words_take(ves_study *s, const ves_search_result *r)
+{
+    ves_run *run = s->run;
+    run->stop = ves_arena_text(s->arena, r->stop, strlen(r->stop));
+    if (!run->stop) return ves_diag_fail(s->diag, VES_MEMORY);
+    for (int k = 0; k < r->notes; k++) VES_TRY(ves_study_note(s, r->note[k]));
+    return VES_OK;
+}
+
+static ves_status counts_take(ves_study *s, const ves_search_result *r)
+{
+    ves_run *run = s->run;
+    ves_temperature *temperature = ves_arena_take(s->arena, (size_t)r->temperatures, sizeof *temperature);
+    ves_run_failure *failure = ves_arena_take(s->arena, VES_FAILURES, sizeof *failure);
+    if (!temperature || !failure) return VES_MEMORY;
+    for (int k = 0; k < r->temperatures; k++) temperature[k] = r->temperature[k];
+    run->failures = 0;
+    for (int k = 0; k < VES_FAILURES; k++)
+        if (s->failed[k]) failure[run->failures++] = (ves_run_failure){(ves_status)k, s->failed[k]};
+    run->failure = failure;
+    if (!r->temperatures) return VES_OK;
+    run->temperature = temperature;
+    run->temperatures = r->temperatures;
+    return VES_OK;
+}
+
+static ves_status result_take(ves_study *s, const ves_search_result *r)
+{
+    ves_run *run = s->run;
+    run->ending = r->ending;
+    run->any = r->any || run->start.status == VES_OK; /* a search may be stopped before it has begun */
+    run->evaluations += r->evaluations;
+    run->gradients += r->gradients;
+    run->refused += r->refused;
+    VES_TRY(words_take(s, r));
+    if (counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK) return ves_diag_fail(s->diag, VES_MEMORY);
+    double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
+    if (!x) return ves_diag_fail(s->diag, VES_MEMORY);
+    const double *from = r->any ? r->x : s->from; /* or no point is better than another */
+    memcpy(x, from, sizeof *x * (size_t)r->n);
+    rest(s, x);
+    VES_TRY(ves_study_measure(s, x, 1, &run->finer));
+    VES_TRY(ves_study_measure(s, x, 0, &run->best));
+    run->feasible = r->any && r->feasible && run->best.status == VES_OK;
+    return VES_OK;
+}
+
+ves_status ves_study_search(ves_study *s, const ves_search_options *options, const double *const *from,
+                            int count)
+{
+    ves_run *run = s->run;
+    ves_search_problem problem = ves_plan_search(s->plan, run->jobs);
+    ves_search_result *result = NULL;
+    ves_search_hooks hooks = {
+        .progress = hear_progress, .record = hear_record, .stopped = hear_stopped, .data = s};
+    if (from) problem.start = from[0], problem.other = from + 1, problem.others = count - 1;
+    s->from = problem.start;
+    s->stages_before = run->times.stages;
+    s->evaluations_before = run->evaluations;
+    s->stage = -1;
+    s->seen = (ves_verdict){.status = VES_NO_NUMBER};
+    double begun = ves_study_clock();
+    ves_status status = ves_search_run(&problem, options, &hooks, &result);
+    stage_enter(s, s->stage);
+    run->times.search += ves_study_clock() - begun;
+    if (!result) return ves_diag_fail(s->diag, status);
+    s->left = result->budget - result->evaluations;
+    status = result_take(s, result);
+    ves_search_result_destroy(result);
+    return status;
+}
