@@ -380,6 +380,7 @@ static const struct shelf {
     {"src/curve/source/", " ves_curve_", "_op = {"},    {"src/curve/move/", " ves_curve_", "_op = {"},
     {"src/measure/list/", " ves_measure_", " = {"},     {"src/output/format/", " ves_format_", " = {"},
     {"src/search/proposal/", " ves_proposal_", " = {"}, {"src/search/schedule/", " ves_schedule_", " = {"},
+    {"src/suite/landscape/", " ves_landscape_", " = {"},
 };
 
 static void check_shelf(house *h, const source *s)
