@@ -57,11 +57,6 @@ static void pde_bind(ves_patch *patch, const ves_bound *bound)
     ves_pde_spine_bind(p, bound);
 }
 
-static void places_fill(pde_chart *c, const ves_grid *grid)
-{
-    for (int i = 0; i < c->nup; i++) c->u[i] = grid->u[i < grid->nu ? i : grid->nu - 1];
-}
-
 static ves_status chart_memory(const pde *p, pde_chart *c, int nv, ves_arena *arena)
 {
     long mode = 9L * ves_curve_stride(p->modes) * c->nup, tail = p->band - p->modes;
@@ -91,7 +86,7 @@ static ves_status pde_chart_create(ves_patch *patch, ves_chart *chart, ves_arena
     for (int f = 0; f < VES_POLE_FIELDS; f++)
         if (chart->fields & 1u << f && ves_field_d[f] >= c->orders) c->orders = ves_field_d[f] + 1;
     VES_TRY(chart_memory(p, c, grid->nv, arena));
-    places_fill(c, grid);
+    pde_places(grid->nu, grid->u, c->nup, c->u);
     ves_pde_spine_basis(p, c->nup, c->u, c->spine);
     int tail = p->band - p->modes;
     for (int e = 0; e < 3; e++)
@@ -110,7 +105,7 @@ static void pde_move(ves_chart *chart)
     pde_chart *c = chart->state;
     const ves_grid *grid = chart->grid;
     int tail = p->band - p->modes, nv = grid->nv;
-    places_fill(c, grid);
+    pde_places(grid->nu, grid->u, c->nup, c->u);
     ves_synthesis_move(&c->synthesis);
     for (int j = 0; j < nv && tail; j++) {
         const double step[2] = {cos(grid->v[j]), sin(grid->v[j])};

@@ -58,6 +58,12 @@ typedef struct pde_chart {
 /* Scattered points go this many at a time through a small table of their own. */
 enum { PDE_CHUNK = VES_LANES };
 
+/* Whole registers of places: the last one repeated. */
+static inline void pde_places(int count, const double *u, int padded, double *place)
+{
+    for (int i = 0; i < padded; i++) place[i] = u[i < count ? i : count - 1];
+}
+
 /* Which operator coordinate k has. */
 static inline int pde_operator(const pde *p, int k)
 {

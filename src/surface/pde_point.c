@@ -25,15 +25,10 @@ typedef struct chunk {
     double *spine;
 } chunk;
 
-static void places_fill(int count, const double *u, double place[CHUNK])
-{
-    for (int i = 0; i < CHUNK; i++) place[i] = u[i < count ? i : count - 1];
-}
-
 static void chunk_make(const pde *p, int count, const double *u, double *room, chunk *c)
 {
     _Alignas(64) double place[CHUNK];
-    places_fill(count, u, place);
+    pde_places(count, u, CHUNK, place);
     memset(c, 0, sizeof *c);
     double *scratch = room + p->def->operators * table_size(p);
     c->spine = scratch;
@@ -118,7 +113,7 @@ bool ves_pde_spine_points(const ves_patch *patch, const ves_bound *bound, int co
     for (int first = 0; first < count; first += CHUNK) {
         int n = count - first < CHUNK ? count - first : CHUNK;
         _Alignas(64) double place[CHUNK];
-        places_fill(n, u + first, place);
+        pde_places(n, u + first, CHUNK, place);
         if (given)
             ves_pde_spine_basis(p, CHUNK, place, table);
         else
