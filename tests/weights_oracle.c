@@ -147,8 +147,10 @@ static void check_residual(const ves_layout *layout, double lam)
     ves_operator op = {.power = layout->power, .parameter = {lam}};
     ves_exact_out out = {.count = n, .columns = n, .orders = orders, .weight = weight};
     const ves_table table = {.weight = weight, .room = room};
+    ves_factor factor;
+    ves_factor_make(&op, false, &factor);
     cr_assert_eq(orders == 3 ? ves_weights_mode(layout, &op, 1, nu, u, &table)
-                             : ves_exact_mode(layout, &op, 1, nu, u, &out, room),
+                             : ves_exact_mode(layout, &factor, 1, nu, u, &out, room),
                  VES_OK);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {

@@ -32,7 +32,7 @@ typedef struct ves_mode {
     double n;
     int orders; /* derivatives 0 .. orders - 1 will be wanted */
     bool slopes;
-    ves_factor factor; /* general operators only */
+    const ves_factor *factor;
     bool centred;
     ves_series series; /* of the centred basis only */
 } ves_mode;

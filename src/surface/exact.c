@@ -23,13 +23,13 @@ static const double SPREAD = 80, WEAK = 1e-20;
 
 double ves_mode_size(const ves_mode *mode)
 {
-    return mode->n * (mode->op->general ? mode->factor.rate : mode->op->parameter[0]);
+    return mode->n * mode->factor->rate;
 }
 
-static void mode_init(const ves_operator *op, double n, int orders, bool slopes, ves_mode *mode)
+static void mode_init(const ves_factor *factor, double n, int orders, bool slopes, ves_mode *mode)
 {
-    mode->op = op, mode->n = n, mode->orders = orders, mode->slopes = slopes;
-    if (op->general) ves_factor_make(op, slopes, &mode->factor);
+    const ves_operator *op = factor->op;
+    mode->op = op, mode->factor = factor, mode->n = n, mode->orders = orders, mode->slopes = slopes;
     mode->centred = ves_mode_size(mode) <= SWITCH * op->power + (op->general ? 4 : 0);
     if (mode->centred) ves_mode_center(mode);
 }
@@ -208,7 +208,7 @@ static bool equilibrate(conditions *s)
 }
 
 /* Gaussian elimination with partial pivoting; the factors of L stay below the diagonal. */
-static bool factor(conditions *s)
+static bool eliminate(conditions *s)
 {
     int n = s->n;
     for (int j = 0; j < n; j++) s->origin[j] = j;
@@ -288,7 +288,7 @@ static ves_status condition_find(work *w, double *condition)
     if (!equilibrate(&w->s)) return VES_UNDETERMINED;
     for (int j = 0; j < n; j++)
         for (int m = 0; m < n; m++) a[j][m] = fabs(entry(&w->s, j, m).hi);
-    if (!factor(&w->s)) return VES_UNDETERMINED;
+    if (!eliminate(&w->s)) return VES_UNDETERMINED;
     for (int first = 0; first < n; first += LANES) {
         for (int m = 0; m < n; m++) {
             w->x[m] = (ves_twos){{0}, {0}};
@@ -305,7 +305,7 @@ static ves_status condition_find(work *w, double *condition)
 /* About the slowest root of mode n: 1 / sum of 1 / |r|. */
 static double slowest(const ves_mode *mode)
 {
-    const ves_factor *f = &mode->factor;
+    const ves_factor *f = mode->factor;
     double sum = f->power > 1 ? f->q[1].hi : 1;
     return fabs(f->q[0].hi / sum) * ves_mode_size(mode);
 }
@@ -406,29 +406,30 @@ static void clear(const ves_operator *op, int nu, const ves_exact_out *out)
         }
 }
 
-ves_status ves_exact_mode(const ves_layout *layout, const ves_operator *op, double n, int nu, const double *u,
-                          const ves_exact_out *out, double *room)
+ves_status ves_exact_mode(const ves_layout *layout, const ves_factor *factor, double n, int nu,
+                          const double *u, const ves_exact_out *out, double *room)
 {
+    const ves_operator *op = factor->op;
     ves_mode mode;
     work w;
     bool slopes = out->slope;
-    mode_init(op, n, orders_of(layout, out->orders), slopes, &mode);
+    mode_init(factor, n, orders_of(layout, out->orders), slopes, &mode);
     work_init(layout, op, out->orders, slopes, room, &w);
     choose(layout, &mode, &w);
     matrix_fill(layout, &mode, &w);
-    bool good = equilibrate(&w.s) && factor(&w.s) && !(op->general && weak(&w.s));
+    bool good = equilibrate(&w.s) && eliminate(&w.s) && !(op->general && weak(&w.s));
     for (int block = 0; block < nu && good; block += LANES) good = block_make(&mode, &w, nu, u, block, out);
     if (!good) clear(op, nu, out);
     return good ? VES_OK : VES_UNDETERMINED;
 }
 
-ves_status ves_exact_condition(const ves_layout *layout, const ves_operator *op, double n, double *condition,
-                               double *room)
+ves_status ves_exact_condition(const ves_layout *layout, const ves_factor *factor, double n,
+                               double *condition, double *room)
 {
     ves_mode mode;
     work w;
-    mode_init(op, n, orders_of(layout, 1), false, &mode);
-    work_init(layout, op, 1, false, room, &w);
+    mode_init(factor, n, orders_of(layout, 1), false, &mode);
+    work_init(layout, factor->op, 1, false, room, &w);
     choose(layout, &mode, &w);
     matrix_fill(layout, &mode, &w);
     return condition_find(&w, condition);

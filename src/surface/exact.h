@@ -9,6 +9,7 @@
 
 #include <stddef.h>
 
+#include "surface/factor.h"
 #include "surface/weights.h"
 
 /* What is wanted: of the cardinal functions first .. first + count - 1 the derivatives 0 .. orders - 1, at
@@ -20,12 +21,13 @@ typedef struct ves_exact_out {
 } ves_exact_out;
 
 long ves_exact_room(const ves_layout *layout, int orders); /* doubles */
-/* layout->lower is not looked at. VES_UNDETERMINED: what is wanted is 0 then. */
-ves_status ves_exact_mode(const ves_layout *layout, const ves_operator *op, double n, int nu, const double *u,
-                          const ves_exact_out *out, double *room);
+/* factor: of the operator, with slopes where those are wanted; it serves all modes. layout->lower is not looked
+ * at. VES_UNDETERMINED: what is wanted is 0 then. */
+ves_status ves_exact_mode(const ves_layout *layout, const ves_factor *factor, double n, int nu,
+                          const double *u, const ves_exact_out *out, double *room);
 
 /* The condition number of the condition matrix in the best scaling of its rows and columns [Bauer 1963]. */
-ves_status ves_exact_condition(const ves_layout *layout, const ves_operator *op, double n, double *condition,
-                               double *room);
+ves_status ves_exact_condition(const ves_layout *layout, const ves_factor *factor, double n,
+                               double *condition, double *room);
 
 #endif

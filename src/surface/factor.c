@@ -108,6 +108,9 @@ void ves_factor_make(const ves_operator *op, bool slopes, ves_factor *f)
 {
     ves_two b[VES_PARAMETERS_MAX];
     int N = f->power = op->power;
+    f->op = op;
+    f->rate = op->parameter[0];
+    if (!op->general) return;
     scaled_make(op, f, b);
     double binomial = 1; /* (r + 3/2)^N: |s| <= 2 max |b_k|^(1/k), so all |r| < 3/2 */
     for (int k = N; k-- > 0;) {
@@ -132,21 +135,19 @@ static double complex value(const ves_factor *f, double complex z)
 }
 
 /* By Durand and Kerner's iteration. */
-double ves_factor_growth(const ves_operator *op)
+double ves_factor_growth(const ves_factor *f)
 {
-    if (!op->general) return op->parameter[0];
-    ves_factor f;
     double complex z[VES_GENERAL_MAX];
     double most = 0;
-    ves_factor_make(op, false, &f);
-    for (int i = 0; i < f.power; i++) z[i] = 1.2 * cexp(I * (2.4 * i + 2.6));
+    if (!f->op->general) return f->rate;
+    for (int i = 0; i < f->power; i++) z[i] = 1.2 * cexp(I * (2.4 * i + 2.6));
     for (int s = 0; s < STEPS; s++)
-        for (int i = 0; i < f.power; i++) {
+        for (int i = 0; i < f->power; i++) {
             double complex product = 1;
-            for (int k = 0; k < f.power; k++)
+            for (int k = 0; k < f->power; k++)
                 if (k != i) product *= z[i] - z[k];
-            if (product != 0) z[i] -= value(&f, z[i]) / product;
+            if (product != 0) z[i] -= value(f, z[i]) / product;
         }
-    for (int i = 0; i < f.power; i++) most = fmax(most, -creal(z[i]));
-    return most * f.rate;
+    for (int i = 0; i < f->power; i++) most = fmax(most, -creal(z[i]));
+    return most * f->rate;
 }

@@ -82,7 +82,7 @@ static void taylor(const ves_factor *f, int parameters, ves_twos h, square *e, s
 
 static void exponential(const ves_mode *mode, int parameters, ves_twos u, square *e, square *slope)
 {
-    const ves_factor *f = &mode->factor;
+    const ves_factor *f = mode->factor;
     int N = f->power, halvings = 4;
     double norm = 1, length = f->rate * mode->n;
     for (int k = 0; k < N; k++) norm += fabs(f->q[k].hi);
@@ -121,7 +121,7 @@ static void extend(const ves_factor *f, int count, int parameters, ves_twos *g, 
 
 static void family(const ves_mode *mode, ves_twos u, double sign, int first, const ves_basis *basis)
 {
-    const ves_factor *f = &mode->factor;
+    const ves_factor *f = mode->factor;
     int N = f->power, orders = basis->orders, members = 2 * N, count = N + orders - 1;
     int parameters = basis->slope ? ves_operator_parameters(mode->op) : 0;
     square e, slope[VES_PARAMETERS_MAX];

@@ -28,21 +28,23 @@ long ves_weights_room(const ves_layout *layout, int nu)
 
 /* The cardinal functions of a raised order are those of the lower one and, for what departs from it, those of
  * the whole. out: of the whole. */
-static ves_status exact(const ves_layout *layout, const ves_operator *op, double n, int nu, const double *u,
+static ves_status exact(const ves_layout *layout, const ves_factor *factor, double n, int nu, const double *u,
                         ves_exact_out out, double *room)
 {
     out.count = out.columns = conditions(layout);
     out.orders = ORDERS;
     if (layout->lower) {
         ves_layout low = *layout;
-        ves_operator of = *op;
-        low.power = of.power = layout->lower;
+        ves_operator op = *factor->op;
+        ves_factor of;
+        low.power = op.power = layout->lower;
+        ves_factor_make(&op, out.slope, &of);
         out.count = conditions(&low);
         VES_TRY(ves_exact_mode(&low, &of, n, nu, u, &out, room));
         out.first = out.count;
         out.count = out.columns - out.first;
     }
-    return ves_exact_mode(layout, op, n, nu, u, &out, room);
+    return ves_exact_mode(layout, factor, n, nu, u, &out, room);
 }
 
 ves_status ves_weights_mode(const ves_layout *layout, const ves_operator *op, double n, int nu,
@@ -51,7 +53,9 @@ ves_status ves_weights_mode(const ves_layout *layout, const ves_operator *op, do
     int size = ORDERS * conditions(layout) * nu;
     if (!ves_fast_fits(layout, op)) {
         ves_exact_out out = {.weight = row->weight, .slope = row->slope, .stride = (size_t)size};
-        return exact(layout, op, n, nu, u, out, row->room);
+        ves_factor factor;
+        ves_factor_make(op, row->slope, &factor);
+        return exact(layout, &factor, n, nu, u, out, row->room);
     }
     ves_status status =
         ves_fast_mode(layout, op->parameter[0] * n, nu, u, row->weight, row->slope, row->room);
@@ -66,10 +70,12 @@ ves_status ves_weights_bind(const ves_layout *layout, const ves_operator *op, in
     size_t row = (size_t)(ORDERS * conditions(layout) * nu);
     ves_exact_out out = {.stride = row * (size_t)(modes + 1)};
     ves_status worst = VES_OK;
+    ves_factor factor;
+    ves_factor_make(op, table->slope, &factor);
     for (int n = table->has_zero ? 1 : 0; n <= modes; n++) {
         out.weight = table->weight + row * (size_t)n;
         out.slope = table->slope ? table->slope + row * (size_t)n : NULL;
-        ves_status status = exact(layout, op, n, nu, u, out, table->room);
+        ves_status status = exact(layout, &factor, n, nu, u, out, table->room);
         if (status != VES_OK) worst = status;
     }
     return worst;
@@ -156,8 +162,10 @@ ves_status ves_weights_amplification(const ves_layout *layout, const ves_operato
     ves_arena arena = {0};
     double *room = ves_arena_doubles(&arena, (size_t)ves_exact_room(layout, 1));
     *found = (ves_amplification){.lebesgue = HUGE_VAL, .amplified = HUGE_VAL, .condition = HUGE_VAL};
-    found->lam = n * ves_factor_growth(op);
-    ves_status status = room ? ves_exact_condition(layout, op, n, &found->condition, room) : VES_MEMORY;
+    ves_factor factor;
+    ves_factor_make(op, false, &factor);
+    found->lam = n * ves_factor_growth(&factor);
+    ves_status status = room ? ves_exact_condition(layout, &factor, n, &found->condition, room) : VES_MEMORY;
     if (status == VES_OK) status = amplification(layout, op, n, &arena, found);
     ves_arena_destroy(&arena);
     classify(layout, op, found);
