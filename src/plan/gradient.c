@@ -18,11 +18,12 @@ static double *row(const ves_plan *plan, int output)
 
 /* From the adjoints of measures (measure_adjoint) to number block adjoints. Samples must be those of this
  * program. */
-static double sweep(ves_plan *plan, int index, plan_program which)
+static ves_status sweep(ves_plan *plan, int index, plan_program which, double *by_similarity)
 {
     const ves_problem *p = plan->problem;
     plan_level *l = &plan->level[index];
-    double by_similarity = 0;
+    ves_status worst = VES_OK;
+    *by_similarity = 0;
     ves_curves_clear(plan->curves);
     for (int k = 0; k < p->patches; k++) ves_patch_clear(plan->patch[k]);
     for (int k = 0; k < l->sites; k++) l->site[k].slopes = 0;
@@ -33,17 +34,20 @@ static double sweep(ves_plan *plan, int index, plan_program which)
         p->measure[m].measure->gradient(&in->input, plan->measure_adjoint[m], in->adjoint,
                                         plan->block_adjoint);
     }
-    for (int k = 0; k < l->sites; k++) by_similarity += ves_site_scatter(plan, &l->site[k]);
+    for (int k = 0; k < l->sites; k++) {
+        ves_status status = ves_site_scatter(plan, &l->site[k], by_similarity);
+        if (status != VES_OK) worst = status;
+    }
     for (int k = 0; k < l->sites; k++)
         if (l->site[k].slopes) ves_site_gather(plan, &l->site[k]);
     for (int k = 0; k < p->patches; k++) ves_patch_unbind(plan->patch[k], &plan->bound, plan->block_adjoint);
     ves_curves_scatter(plan->curves, plan->block, plan->block_adjoint);
-    return by_similarity;
+    return worst;
 }
 
 /* One output, sum of seed[k] * formula[k], into its row. */
-void ves_plan_gradient(ves_plan *plan, int index, int output, const ves_formula *const *formula,
-                       const double *seed, int count, plan_program which)
+ves_status ves_plan_gradient(ves_plan *plan, int index, int output, const ves_formula *const *formula,
+                             const double *seed, int count, plan_program which)
 {
     const ves_problem *p = plan->problem;
     memset(plan->measure_adjoint, 0, sizeof(double) * (size_t)p->measures);
@@ -52,8 +56,9 @@ void ves_plan_gradient(ves_plan *plan, int index, int output, const ves_formula 
     for (int k = 0; k < count; k++)
         ves_formula_gradient(formula[k], plan->block, plan->value, seed[k], plan->block_adjoint,
                              plan->measure_adjoint, plan->formula_room);
-    plan->row_similarity[output] = sweep(plan, index, which);
+    VES_TRY(sweep(plan, index, which, &plan->row_similarity[output]));
     ves_plan_pull(plan, plan->block_adjoint, row(plan, output));
+    return VES_OK;
 }
 
 /* s = (target / m)^(1/d) with m on the unscaled shape: ds = s / d (d target / target - dm / m). */
@@ -65,14 +70,14 @@ static ves_status follow_scale(ves_plan *plan, int index, int outputs)
     plan_level *l = &plan->level[index];
     for (int k = 0; k < l->sites; k++)
         VES_TRY(ves_site_sample(plan, &l->site[k], l->site[k].needs[PROGRAM_SCALE], true));
-    double m, target = ves_plan_formula(plan, sc->target);
+    double m, by_similarity, target = ves_plan_formula(plan, sc->target);
     VES_TRY(plan->problem->measure[sc->measure].measure->eval(&l->instance[sc->measure].input, &m));
     double f = s / plan->problem->measure[sc->measure].measure->degree;
     memset(plan->measure_adjoint, 0, sizeof(double) * (size_t)plan->problem->measures);
     memset(plan->block_adjoint, 0, sizeof(double) * (size_t)plan->problem->block);
     memset(plan->unit_row, 0, sizeof(double) * (size_t)slots(plan));
     plan->measure_adjoint[sc->measure] = -f / m;
-    sweep(plan, index, PROGRAM_SCALE);
+    VES_TRY(sweep(plan, index, PROGRAM_SCALE, &by_similarity));
     ves_formula_gradient(sc->target, plan->block, plan->value, f / target, plan->block_adjoint, NULL,
                          plan->formula_room);
     ves_plan_pull(plan, plan->block_adjoint, plan->unit_row);
@@ -101,7 +106,7 @@ ves_status ves_plan_follow(ves_plan *plan, int index, int outputs)
     if (solve) {
         const ves_formula *formula[2] = {solve->left, solve->right};
         const double seed[2] = {1, -1};
-        ves_plan_gradient(plan, index, outputs++, formula, seed, 2, PROGRAM_JUDGE);
+        VES_TRY(ves_plan_gradient(plan, index, outputs++, formula, seed, 2, PROGRAM_JUDGE));
     }
     if (plan->problem->scale) VES_TRY(follow_scale(plan, index, outputs));
     if (solve) follow_solve(plan, outputs);

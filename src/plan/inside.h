@@ -143,7 +143,8 @@ void ves_plan_level_face(ves_plan *plan, int index);
 ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind);
 int ves_site_look(const ves_measure_input *input, int i, int k, const double u[3], const double v[3]);
 ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gradient);
-double ves_site_scatter(ves_plan *plan, plan_site *s); /* returns d J / d similarity, leaves adjoints 0 */
+/* Adds d J / d similarity; leaves adjoints 0, whatever the status. */
+ves_status ves_site_scatter(ves_plan *plan, plan_site *s, double *by_similarity);
 void ves_site_gather(ves_plan *plan, plan_site *s);
 
 /* bind.c: x -> block -> curves -> patches, and back. What is bound has no similarity yet. */
@@ -168,8 +169,8 @@ ves_status ves_plan_pose(ves_plan *plan);
 ves_status ves_plan_measure_all(ves_plan *plan, const double *x, int level);
 
 /* gradient.c */
-void ves_plan_gradient(ves_plan *plan, int level, int output, const ves_formula *const *formula,
-                       const double *seed, int count, plan_program which);
+ves_status ves_plan_gradient(ves_plan *plan, int level, int output, const ves_formula *const *formula,
+                             const double *seed, int count, plan_program which);
 ves_status ves_plan_follow(ves_plan *plan, int level, int outputs);
 
 /* figure.c, after plan_forward; proof.c: does the shape of the last evaluation cross itself? */

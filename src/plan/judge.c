@@ -62,13 +62,13 @@ static ves_status gradients(ves_plan *plan, int index, ves_verdict *verdict)
     const ves_problem *p = plan->problem;
     const double sign = p->maximize ? -1 : 1;
     int n = p->variables, outputs = 1 + p->constraints;
-    ves_plan_gradient(plan, index, 0, &p->objective, &sign, p->objective ? 1 : 0, PROGRAM_JUDGE);
+    VES_TRY(ves_plan_gradient(plan, index, 0, &p->objective, &sign, p->objective ? 1 : 0, PROGRAM_JUDGE));
     for (int k = 0; k < p->constraints; k++) {
         const ves_constraint_def *c = &p->constraint[k];
         const ves_formula *formula[2] = {c->left, c->right};
         double f = own_tolerance(c) / plan->size[k] * (c->relation == VES_AT_LEAST ? -1 : 1);
         const double seed[2] = {f, -f};
-        ves_plan_gradient(plan, index, 1 + k, formula, seed, 2, PROGRAM_JUDGE);
+        VES_TRY(ves_plan_gradient(plan, index, 1 + k, formula, seed, 2, PROGRAM_JUDGE));
     }
     VES_TRY(ves_plan_follow(plan, index, outputs));
     memcpy(verdict->gradient, plan->rows, sizeof(double) * (size_t)n);

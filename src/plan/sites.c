@@ -429,21 +429,25 @@ static double curve_scatter(ves_plan *plan, plan_site *s)
     return by_similarity;
 }
 
-double ves_site_scatter(ves_plan *plan, plan_site *s)
+ves_status ves_site_scatter(ves_plan *plan, plan_site *s, double *by_similarity)
 {
-    if (!s->slopes || !s->varies || idle(s)) return 0;
-    if (!s->chart) return curve_scatter(plan, s);
-    if (s->looked) (void)ves_chart_prepare(s->chart, &plan->bound, true); /* it went well when it looked */
+    ves_status status = VES_OK;
+    if (!s->slopes || !s->varies || idle(s)) return VES_OK;
+    if (!s->chart) {
+        *by_similarity += curve_scatter(plan, s);
+        return VES_OK;
+    }
+    /* what it looked at was solved, but slopes need not be numbers where values are */
+    if (s->looked) status = ves_chart_prepare(s->chart, &plan->bound, true);
     ves_chart_clear(s->chart);
-    double by_similarity = 0;
     bool scaled = plan->problem->scale;
     for (int k = 0; k < s->tiles; k++) {
         ves_tile *tile = &s->tile[k];
         adjoint_make(plan, s, tile, &s->kept[k]);
-        if (scaled) by_similarity += tile_unscale(tile, plan->similarity, &s->kept[k], plan->field_adjoint);
+        if (scaled) *by_similarity += tile_unscale(tile, plan->similarity, &s->kept[k], plan->field_adjoint);
         ves_chart_scatter(s->chart, tile, plan->field_adjoint);
     }
-    return by_similarity;
+    return status;
 }
 
 void ves_site_gather(ves_plan *plan, plan_site *s)
