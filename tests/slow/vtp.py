@@ -1,4 +1,4 @@
-"""Opens VTP files with VTK: points, polygons and arrays must be there and finite, normals of length one."""
+"""Opens VTP files with VTK: points, polygons or lines and arrays must be there and finite, normals of length one."""
 import sys
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -9,7 +9,7 @@ import numpy
 ARRAYS = ["H", "K", "k1", "k2"]
 
 
-def check(path):
+def read(path):
     reader = vtkXMLPolyDataReader()
     reader.SetFileName(path)
     reader.Update()
@@ -17,6 +17,12 @@ def check(path):
     points, cells = data.GetNumberOfPoints(), data.GetNumberOfCells()
     assert reader.GetErrorCode() == 0 and points > 0 and cells > 0, f"{path}: {points} points, {cells} cells"
     assert numpy.isfinite(vtk_to_numpy(data.GetPoints().GetData())).all(), f"{path}: points are not finite"
+    return data
+
+
+def check_shape(path):
+    data = read(path)
+    points, cells = data.GetNumberOfPoints(), data.GetNumberOfCells()
     arrays = data.GetPointData()
     names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
     for name in ARRAYS:
@@ -39,5 +45,26 @@ def check(path):
     print(f"{path}: {points} points, {cells} polygons, area {mass.GetSurfaceArea():.6g}, arrays {', '.join(names)}")
 
 
+def check_spines(path):
+    """One line for each patch, from u = 0 to u = 1, that uses each of its points once."""
+    data = read(path)
+    points, lines = data.GetNumberOfPoints(), data.GetLines()
+    assert lines.GetNumberOfCells() == data.GetNumberOfCells(), f"{path}: not lines alone"
+    u, patch = (vtk_to_numpy(data.GetPointData().GetArray(name)) for name in ("u", "patch"))
+    names = data.GetFieldData().GetAbstractArray("patches")
+    corners, ends = (vtk_to_numpy(array) for array in (lines.GetConnectivityArray(), lines.GetOffsetsArray()))
+    assert sorted(corners) == list(range(points)), f"{path}: points that no line has, or more than one"
+    owners = []
+    for line in numpy.split(corners, ends[1:-1]):
+        assert u[line[0]] == 0 and u[line[-1]] == 1 and (numpy.diff(u[line]) > 0).all(), f"{path}: u is {u[line]}"
+        assert (patch[line] == patch[line[0]]).all(), f"{path}: a line of the patches {patch[line]}"
+        owners.append(names.GetValue(patch[line[0]]))
+    assert len(set(owners)) == len(owners), f"{path}: two spines of one patch, {owners}"
+    print(f"{path}: {points} points, spines of {', '.join(owners)}")
+
+
 for file in sys.argv[1:]:
-    check(file)
+    if file.endswith("-spines.vtp"):
+        check_spines(file)
+    else:
+        check_shape(file)
