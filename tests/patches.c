@@ -379,6 +379,33 @@ Test(patches, facts_of_patches_without_conditions_inside)
     bed_clear(&b);
 }
 
+#define LEANING(raised)                                                                                      \
+    "vesica: 1\ncurves: {p: {bspline: {points: [[1, 0, 0], [0, 1.2, 0.1], [-1, 0, 0], [0, -1, 0]]}}, "       \
+    "q: {circle: {radius: 0.6, centre: [0, 0.1, 1.5]}}, f: {circle: {radius: 0.5, centre: [0, 0, 1]}}}\n"    \
+    "patches: {w: {operator: {power: 2, a: 0.8}, conditions: [{u: 0, position: p}, {u: 0, derivative: 1, "   \
+    "field: f}, {u: 0, derivative: 2, field: f}, {u: 1, position: q}]" raised "}}\nminimize: area\n"
+
+/* Three conditions at one end and one at the other are amplified. Two more at the other end make it an order that is
+ * not, but the surface is that of the lower one still, with as many modes. */
+Test(patches, a_raised_order_is_amplified_as_its_lower_one)
+{
+    static const char *const text[] = {LEANING(""),
+                                       LEANING(", raise: [{u: 1, derivative: 1}, {u: 1, derivative: 2}]")};
+    static double X[2][18 * MANY];
+    ves_patch_facts f[2];
+    for (int k = 0; k < 2; k++) {
+        bed b = bed_with(text[k], NULL, 8, 8);
+        f[k] = ves_plan_patch(b.plan, 0);
+        expect_warning(&b, NULL);
+        cr_expect(f[k].order == (k ? 6 : 4) && f[k].band == 127, "%d", f[k].order);
+        bed_clear(&b);
+        points_of(text[k], X[k]);
+    }
+    cr_expect(f[0].modes > 5 && f[0].modes < 20, "%d", f[0].modes);
+    cr_expect(f[1].modes == f[0].modes && f[1].omega == f[0].omega, "%d, %g", f[1].modes, f[1].omega);
+    cr_expect(apart(X[0], X[1]) < 1e-12, "off by %.2g", apart(X[0], X[1]));
+}
+
 /* Positions are never singular: where they amplify beyond all numbers fewer modes are solved, and the remainder as a
  * lower one. */
 Test(patches, modes_that_conditions_inside_make_unsolvable_are_left_to_a_remainder_that_is_not)
