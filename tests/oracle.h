@@ -220,6 +220,34 @@ static inline void oracle_power(oracle *o, int N, double lam, long bits)
     oracle_add(o, lam, 0, N);
 }
 
+/* d/da of mode n of (d_uu + a^2 d_vv)^N: (l(lam + h) - l(lam - h)) n / 2h, h = 2^-130. */
+static inline void oracle_slopes(const ves_layout *layout, double a, int n, int orders, int nu,
+                                 const double *u, double *want)
+{
+    int size = orders * 2 * layout->power * nu;
+    long bits = 700 + 40 * layout->power;
+    oracle o;
+    oracle_init(&o, bits);
+    mpfr_t *w = oracle_numbers(&o, 2 * size + 1), *h = w + 2 * size;
+    mpfr_set_ui_2exp(*h, 1, -130, MPFR_RNDN);
+    for (int side = 0; side < 2; side++) {
+        oracle_power(&o, layout->power, 1, bits);
+        mpfr_set_d(o.root[0].p, a, MPFR_RNDN);
+        mpfr_mul_si(o.root[0].p, o.root[0].p, n, MPFR_RNDN);
+        mpfr_add(o.root[0].p, o.root[0].p, *h, MPFR_RNDN);
+        mpfr_neg(*h, *h, MPFR_RNDN);
+        oracle_weights(&o, layout, orders, nu, u, w + side * size);
+        oracle_clear(&o);
+    }
+    for (int k = 0; k < size; k++) {
+        mpfr_sub(w[k], w[k], w[size + k], MPFR_RNDN);
+        mpfr_mul_2ui(w[k], w[k], 129, MPFR_RNDN);
+        mpfr_mul_si(w[k], w[k], n, MPFR_RNDN);
+        want[k] = a > 0 ? mpfr_get_d(w[k], MPFR_RNDN) : 0; /* an even function of a */
+    }
+    oracle_free(2 * size + 1, w);
+}
+
 /* --- roots of a general operator: by Durand and Kerner's iteration, in MPFR --- */
 
 typedef struct oracle_complex {

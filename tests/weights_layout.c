@@ -38,33 +38,6 @@ static double *room_for(const ves_layout *layout)
 
 /* --- derivatives by a --- */
 
-/* d/da of mode n: (l(lam + h) - l(lam - h)) n / 2h, h = 2^-130. */
-static void oracle_slope(const ves_layout *layout, double a, int n, const double *u, double *want)
-{
-    int size = ORDERS * 2 * layout->power * PLACES;
-    long bits = 700 + 40 * layout->power;
-    oracle o;
-    oracle_init(&o, bits);
-    mpfr_t *w = oracle_numbers(&o, 2 * size + 1), *h = w + 2 * size;
-    mpfr_set_ui_2exp(*h, 1, -130, MPFR_RNDN);
-    for (int side = 0; side < 2; side++) {
-        oracle_power(&o, layout->power, 1, bits);
-        mpfr_set_d(o.root[0].p, a, MPFR_RNDN);
-        mpfr_mul_si(o.root[0].p, o.root[0].p, n, MPFR_RNDN);
-        mpfr_add(o.root[0].p, o.root[0].p, *h, MPFR_RNDN);
-        mpfr_neg(*h, *h, MPFR_RNDN);
-        oracle_weights(&o, layout, ORDERS, PLACES, u, w + side * size);
-        oracle_clear(&o);
-    }
-    for (int k = 0; k < size; k++) {
-        mpfr_sub(w[k], w[k], w[size + k], MPFR_RNDN);
-        mpfr_mul_2ui(w[k], w[k], 129, MPFR_RNDN);
-        mpfr_mul_si(w[k], w[k], n, MPFR_RNDN);
-        want[k] = a > 0 ? mpfr_get_d(w[k], MPFR_RNDN) : 0; /* an even function of a */
-    }
-    oracle_free(2 * size + 1, w);
-}
-
 /* The bar of weights_oracle.c, of the size of the derivative by a, or of the cardinal function's times a n^2 (in
  * the double-double path 1e-10 of that): of what depends on a^4 or a^6 only, at small a, the rounding of the rest
  * is left. */
@@ -77,7 +50,7 @@ static void check_slope(int N, kind place, double lam, int n)
     ves_operator op = {.power = N, .parameter = {lam / n}};
     bool fast = ves_fast_fits(&layout, &op);
     places(N, lam, u);
-    oracle_slope(&layout, lam / n, n, u, want);
+    oracle_slopes(&layout, lam / n, n, ORDERS, PLACES, u, want);
     ves_weights_mode(&layout, &op, n, PLACES, u, &(ves_table){.weight = got, .slope = slope, .room = room});
     for (int k = 0; k < size; k++) {
         int d = k / PLACES / columns, j = k / PLACES % columns;
