@@ -92,3 +92,30 @@ Test(cli_plugin, a_plugin_that_is_not_sound_is_refused)
     refuse_plugin(sound, ".name = \"mine\", .surface = 1 << 12", 2, "this version of vesica does not know");
     root_remove();
 }
+
+/* A start design that takes long, without waiting for it: its measure rings the bell. */
+Test(cli_plugin, who_waits_for_a_start_design_is_told)
+{
+    root_make();
+    write_file("slow.c",
+               "#include <vesica/measure.h>\n#include <signal.h>\n"
+               "static ves_status eval(const ves_measure_input *i, double *v)\n"
+               "{ static int rung; if (!rung++) raise(SIGALRM); *v = i->samples; return VES_OK; }\n"
+               "static const ves_measure m = {.name = \"slow\", .about = \"a\", .unit = \"1\", "
+               ".surface = VES_X, .eval = eval};\n"
+               "static const ves_measure *const list[] = {&m, NULL};\n"
+               "const ves_plugin ves_plugin_entry = {VES_PLUGIN, .name = \"slow\", .measure = list};\n");
+    cr_assert(system("cc -D_POSIX_C_SOURCE=200809L -std=c17 -shared -fPIC -I" VESICA_SOURCE
+                     "/include -o slow.so slow.c") == 0);
+    static const struct {
+        const char *command, *says;
+    } row[] = {{"check", "  still at work on the start design\n"},
+               {"run --no-files --evaluations 9", "  still at work on the start design\nbottle  "}};
+    for (int k = 0; k < 2; k++) {
+        outcome o =
+            vesica(NULL, "%s " PROBLEMS "bottle.yaml --set maximize=slow --plugin slow.so", row[k].command);
+        cr_assert(strstr(o.err, row[k].says) == o.err, "%s: %d, %s", row[k].command, o.code, o.err);
+        done(&o);
+    }
+    root_remove();
+}

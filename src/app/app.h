@@ -90,6 +90,10 @@ void app_plugins_close(app *a);
 void app_interrupt_listen(void);
 bool app_interrupt_asked(void);
 
+/* patience.c: from begin to end one line on stderr, if that takes long. */
+void app_patience_begin(void);
+void app_patience_end(void);
+
 /* main.c: how the program was called, for commands that it proposes: "./vesica", "vesica". */
 const char *app_called(void);
 

@@ -228,8 +228,6 @@ static void json_print(const checked *c)
 
 static int report(app *a, checked *c)
 {
-    ves_status status = look(a, c);
-    if (status != VES_OK) return app_fail(a, status, "%s", ves_status_text(status));
     if (a->options.json) {
         json_print(c);
     } else {
@@ -249,16 +247,20 @@ int app_check(app *a)
 {
     ves_opened opened;
     checked c = {0};
+    ves_status looked = VES_OK;
     ves_run *run;
     int code;
     if (!app_open(a, &opened, &code)) return code;
     const ves_run_options options = {.once = true, .prove = true};
+    app_patience_begin();
     ves_status status = ves_run_create(opened.problem, &options, NULL, &run, a->diag);
+    c.run = run;
+    if (run) looked = look(a, &c);
+    app_patience_end();
     app_say(a);
     code = app_code(status);
     if (run) {
-        c.run = run;
-        code = report(a, &c);
+        code = looked == VES_OK ? report(a, &c) : app_fail(a, looked, "%s", ves_status_text(looked));
         ves_run_destroy(run);
     }
     ves_study_close(&opened);

@@ -16,6 +16,7 @@ static void heading(void *data, const ves_run *run)
     listener *l = data;
     const ves_problem *p = run->problem;
     char v[64], c[64];
+    app_patience_end();
     app_say(l->a); /* what the file made us warn of comes first */
     fprintf(stderr, "%s  %s\n  %s, %s, %d x %d nodes a patch", p->name, p->title,
             app_screen_plural(p->variables, "variable", "variables", v),
@@ -72,7 +73,9 @@ static ves_status work(app *a, const ves_opened *opened, ves_run **run)
     listener l = {a, ves_progress_create(stderr, o->progress)};
     ves_run_hooks hooks = {heading, show, stopped, &l};
     app_interrupt_listen();
+    if (o->progress != VES_PROGRESS_NONE) app_patience_begin();
     ves_status status = ves_run_create(opened->problem, &options, &hooks, run, a->diag);
+    app_patience_end();
     ves_progress_destroy(l.bar);
     app_say(a);
     return status;
