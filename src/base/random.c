@@ -38,3 +38,14 @@ int ves_random_below(ves_random *random, int n)
     int k = (int)(ves_random_uniform(random) * n);
     return k < n ? k : n - 1; /* u * n may round up to n */
 }
+
+void ves_random_normals(ves_random *random, int n, double *z)
+{
+    uint32_t word[4];
+    for (int i = 0; i < n; i += 2) {
+        ves_random_words(random->seed, random->chain, random->step, random->draw++, word);
+        double r = sqrt(-2 * log(unit(word[0], word[1]))), angle = VES_TWO_PI * unit(word[2], word[3]);
+        z[i] = r * cos(angle);
+        if (i + 1 < n) z[i + 1] = r * sin(angle);
+    }
+}

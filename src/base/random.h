@@ -20,4 +20,7 @@ double ves_random_uniform(ves_random *random);
 double ves_random_normal(ves_random *random);
 int ves_random_below(ves_random *random, int n);
 
+/* n normal numbers at half the price: each draw makes two. */
+void ves_random_normals(ves_random *random, int n, double *z);
+
 #endif
