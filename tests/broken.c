@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "problem/problem.h"
+#include "problem/suite.h"
 #include "surface/figure.h"
 #include "vesica/plan.h"
 
@@ -63,11 +64,24 @@ static const char *message(const ves_diag *diag, int k, char text[TEXT])
     return !strncmp(text, "broken:", 7) ? text + 7 : text;
 }
 
-static ves_diag *read_file(const char *text, ves_status *status)
+/* suite-NAME.yaml is a suite. */
+static void read_suite(const char *text, ves_diag *diag, ves_status *status)
+{
+    ves_suite *suite = NULL;
+    *status = ves_suite_read_text("broken", text, strlen(text), NULL, &suite, diag);
+    cr_expect((suite == NULL) == (*status != VES_OK));
+    ves_suite_destroy(suite);
+}
+
+static ves_diag *read_file(const char *name, const char *text, ves_status *status)
 {
     ves_problem *problem = NULL;
     ves_diag *diag = ves_diag_create();
     ves_plan *plan = NULL;
+    if (!strncmp(name, "suite-", 6)) {
+        read_suite(text, diag, status);
+        return diag;
+    }
     *status = ves_problem_read_text("broken", text, strlen(text), NULL, &problem, diag);
     cr_expect((problem == NULL) == (*status != VES_OK));
     if (problem) *status = ves_plan_create(problem, &(ves_plan_options){{8, 8}}, &plan, diag);
@@ -93,7 +107,7 @@ static void check_file(const char *name, const char *text)
     char want[TEXT], got[TEXT];
     const char *at = text;
     ves_status status;
-    ves_diag *diag = read_file(text, &status);
+    ves_diag *diag = read_file(name, text, &status);
     int k = 0;
     for (; next_want(&at, want); k++) {
         while (k < ves_diag_count(diag) && ves_diag_severity(diag, k) != VES_ERROR) k++;
@@ -130,7 +144,7 @@ static char *all_messages(void)
         snprintf(path, sizeof path, "%s/tests/broken/%s", VESICA_SOURCE, name[k]);
         char *file = slurp(path);
         ves_status status;
-        ves_diag *diag = read_file(file, &status);
+        ves_diag *diag = read_file(name[k], file, &status);
         for (int i = 0; i < ves_diag_count(diag); i++)
             at += (size_t)snprintf(all + at, FOUND - at, "%s\n", message(diag, i, text));
         cr_assert(at < FOUND);

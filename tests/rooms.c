@@ -68,7 +68,7 @@ typedef struct arrow {
 /* Other people's libraries: one door each. The app only asks them for their versions. */
 static const arrow DOORS[] = {
     {"yaml.h", "problem app"},
-    {"nlopt.h", "search app"},
+    {"nlopt.h", "search suite app"},
     {"cairo", "output app"},
     {"CGAL/", "bridge"},
     {"gmp", "bridge"},

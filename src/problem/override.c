@@ -260,6 +260,8 @@ static ves_status set_name(const override *o, const ves_node *root)
     if (declared(root, o->name)) return set_start(o, root);
     if (key) return replace(o, key);
     if (ves_words_find(new_keys, o->name) >= 0) return add(o, root, o->name, "", "");
+    if (ves_node_find(root, "suite") && ves_schema_find(ves_schema_suite.table, o->name))
+        return add(o, root, o->name, "", "");
     const char *candidate[WORD];
     int count = 0;
     static const char *const sections[] = {"variables", "parameters"};

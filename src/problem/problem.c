@@ -12,7 +12,7 @@
 enum { FORMAT = 1, LIMIT = 16 * 1024 * 1024, CHUNK = 64 * 1024 };
 
 /* `vesica: 1` decides how the rest is to be read: nothing else is said about a file of another format. */
-static bool is_format(ves_reader *reader, const ves_node *root)
+bool ves_reader_format(ves_reader *reader, const ves_node *root)
 {
     const ves_node *node = ves_node_find(root, "vesica");
     if (!node) return true; /* the table asks for it */
@@ -68,12 +68,12 @@ void ves_reader_settings(ves_reader *reader, const ves_fields *root)
 
 /* Keys given twice: of each the first holds, so that all other mistakes are found too. What an alias stands
  * for is looked at where it is written. */
-static void find_repeats(ves_reader *reader, const ves_node *node)
+void ves_reader_repeats(ves_reader *reader, const ves_node *node)
 {
     for (int k = 0; k < node->count + node->repeats; k++) {
         if (k >= node->count)
             ves_reader_error(reader, VES_SYNTAX, node->key[k], "key \"%s\" given twice", node->key[k]->text);
-        if (!node->item[k]->alias) find_repeats(reader, node->item[k]);
+        if (!node->item[k]->alias) ves_reader_repeats(reader, node->item[k]);
     }
 }
 
@@ -86,9 +86,9 @@ static ves_status read_root(ves_reader *reader, const ves_node *root)
     } else if (root->kind != VES_NODE_MAP) {
         ves_reader_error(reader, VES_SYNTAX, root,
                          "a problem file is a mapping of keys, beginning with vesica: 1");
-    } else if (is_format(reader, root) &&
+    } else if (ves_reader_format(reader, root) &&
                ves_fields_read(reader, root, ves_schema_root.table, "problem", &fields)) {
-        find_repeats(reader, root);
+        ves_reader_repeats(reader, root);
         read_sections(reader, &fields);
         if (reader->status != VES_MEMORY) ves_reader_finish(reader, &fields);
     }

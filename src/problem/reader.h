@@ -267,6 +267,11 @@ void ves_reader_plain_measures(ves_reader *reader, const ves_node *node);
 ves_symbol *ves_reader_symbols(ves_reader *reader, bool expect, int *count);
 void ves_reader_goals(ves_reader *reader, const ves_fields *root);
 void ves_reader_search(ves_reader *reader, const ves_fields *root);
+void ves_reader_stages(ves_reader *reader, const ves_node *node, ves_search_options *options);
+void ves_reader_seed(ves_reader *reader, const ves_node *node, uint64_t *seed);
+/* problem.c: is it a file of this format (its word `vesica`); complains of keys given twice */
+bool ves_reader_format(ves_reader *reader, const ves_node *root);
+void ves_reader_repeats(ves_reader *reader, const ves_node *node);
 
 /* shown.c: units for people. That of a word that has one, else SI. */
 void ves_shown_find(const ves_node *const *word, int count, ves_dim dim, ves_shown *shown);

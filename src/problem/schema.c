@@ -245,7 +245,7 @@ static const ves_entry stages[] = {
     {{"polish", KIND(VES_MAP), .about = "local search by NLopt"}, "polish: {algorithm: slsqp}", polish_keys},
     END};
 
-static const ves_entry stage[] = {
+const ves_entry ves_schema_stage[] = {
     {{"stage", KIND(VES_STAGE), .about = "one stage; it starts where the stage before ended"}, "anneal: {evaluations: 20000}", stages},
     END};
 
@@ -256,7 +256,7 @@ static const ves_entry check[] = {
 
 static const ves_entry test_keys[] = {
     {{"evaluations", VES_COUNT, .min = 1, .max = 2e9, .fallback = NAN, .about = "budget of a test run"}, "evaluations: 500", NULL},
-    {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of a test run"}, "search: [{polish: {}}]", stage},
+    {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of a test run"}, "search: [{polish: {}}]", ves_schema_stage},
     {{"expect", KIND(VES_LIST), .about = "checks of a test run, instead of those of expect"}, "expect: [feasible]", check},
     END};
 
@@ -281,7 +281,7 @@ static const ves_entry root[] = {
     {{"constraints", KIND(VES_LIST), .about = "relations that the shape must meet"}, "constraints: [area <= 14]", relation},
     {{"validity", KIND(VES_MAP), .about = "which surfaces are refused"}, "validity: {jacobian: positive, self_intersection: best}", validity_keys},
     {{"quadrature", KIND(VES_MAP), .words = "auto", .about = "nodes of integrals on each patch; auto: chosen at the start design, and again at the best if that asks for more"}, "quadrature: {u: 16, v: 32}", quadrature_keys},
-    {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of the search; auto: anneal, then polish"}, "search: [{anneal: {evaluations: 20000}}, {polish: {algorithm: slsqp}}]", stage},
+    {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of the search; auto: anneal, then polish"}, "search: [{anneal: {evaluations: 20000}}, {polish: {algorithm: slsqp}}]", ves_schema_stage},
     {{"seed", KIND(VES_SEED), .fallback = 1, .about = "seed of the random numbers: same seed, same result"}, "seed: 7", NULL},
     {{"expect", KIND(VES_LIST), .about = "checks at the end of a run"}, "expect: [violation < 1e-6]", check},
     {{"test", KIND(VES_MAP), .about = "a smaller run for tests"}, "test: {evaluations: 500, expect: [feasible]}", test_keys},

@@ -42,8 +42,10 @@ typedef struct ves_entry {
     const struct ves_entry *table;
 } ves_entry;
 
-extern const ves_entry ves_schema_root; /* VES_MAP: the whole file */
-extern const ves_key ves_schema_over;   /* what every measure of surfaces understands besides its own keys */
+extern const ves_entry ves_schema_root;  /* VES_MAP: the whole file */
+extern const ves_entry ves_schema_suite; /* the same of a suite file (vesica bench) */
+extern const ves_entry ves_schema_stage[];
+extern const ves_key ves_schema_over; /* what every measure of surfaces understands besides its own keys */
 
 const ves_entry *ves_schema_find(const ves_entry *table, const char *name);
 

@@ -138,7 +138,7 @@ static void read_stage(ves_reader *reader, const ves_node *node, ves_search_opti
     }
 }
 
-static void read_stages(ves_reader *reader, const ves_node *node, ves_search_options *options)
+void ves_reader_stages(ves_reader *reader, const ves_node *node, ves_search_options *options)
 {
     const ves_node *const single[1] = {node};
     bool list = node->kind == VES_NODE_LIST;
@@ -151,7 +151,7 @@ static void read_stages(ves_reader *reader, const ves_node *node, ves_search_opt
     for (int k = 0; k < count && k < VES_STAGES; k++) read_stage(reader, item[k], options);
 }
 
-static void read_seed(ves_reader *reader, const ves_node *node, uint64_t *seed)
+void ves_reader_seed(ves_reader *reader, const ves_node *node, uint64_t *seed)
 {
     ves_key key = ves_schema_find(ves_schema_root.table, "seed")->key;
     key.max = 9007199254740992.0;
@@ -166,7 +166,7 @@ static void read_test(ves_reader *reader, const ves_node *node, ves_search_optio
         return;
     const ves_node *search = ves_fields_find(&f, "search");
     set_long(reader, &f, "evaluations", &options->evaluations);
-    if (search) read_stages(reader, search, options);
+    if (search) ves_reader_stages(reader, search, options);
 }
 
 void ves_reader_search(ves_reader *reader, const ves_fields *root)
@@ -175,8 +175,8 @@ void ves_reader_search(ves_reader *reader, const ves_fields *root)
     const ves_node *search = ves_fields_find(root, "search"), *seed = ves_fields_find(root, "seed"),
                    *test = ves_fields_find(root, "test");
     problem->search = ves_search_options_default();
-    if (search) read_stages(reader, search, &problem->search);
-    if (seed) read_seed(reader, seed, &problem->search.seed);
+    if (search) ves_reader_stages(reader, search, &problem->search);
+    if (seed) ves_reader_seed(reader, seed, &problem->search.seed);
     problem->test = problem->search;
     if (test) read_test(reader, test, &problem->test);
 }

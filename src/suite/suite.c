@@ -1,0 +1,40 @@
+#include "suite/suite.h"
+
+#include <math.h>
+
+#include "suite/instance.h"
+
+void ves_suite_destroy(ves_suite *suite)
+{
+    if (!suite) return;
+    ves_arena_destroy(&suite->arena);
+    ves_memory_free(suite);
+}
+
+double ves_suite_budget(const ves_suite *suite, int n)
+{
+    return floor(fmin(suite->per_dimension * n, suite->most));
+}
+
+double ves_suite_value(double reference, double gap)
+{
+    return reference + gap * fmax(1, fabs(reference));
+}
+
+int ves_suite_runs(const ves_suite *suite)
+{
+    return suite->entrants * suite->bouts * suite->seeds;
+}
+
+ves_suite_place ves_suite_run(const ves_suite *suite, int index)
+{
+    int per_entrant = suite->bouts * suite->seeds;
+    return (ves_suite_place){.entrant = index / per_entrant,
+                             .bout = index % per_entrant / suite->seeds,
+                             .seed = index % suite->seeds};
+}
+
+uint64_t ves_suite_seed(const ves_suite *suite, const ves_bout *bout, int seed)
+{
+    return ves_instance_hash(bout->name, suite->seed + ((uint64_t)seed << 40)) >> 12;
+}
