@@ -29,7 +29,7 @@ typedef struct app_options {
     int jobs, spine, grid[2];
     double metres;  /* of the unit of export; 0: none is asked for */
     double view[2]; /* radians: azimuth, height */
-    const char *start, *out, *patch, *points, *to, *unit, *png, *colour;
+    const char *start, *out, *patch, *points, *to, *unit, *png, *colour, *folder, *add;
     ves_progress_style progress;
     ves_trace trace;
 } app_options;
@@ -58,6 +58,7 @@ typedef struct app_command {
 extern const app_command app_commands[];
 
 int app_run(app *a);
+int app_bench(app *a);
 int app_eval(app *a);
 int app_check(app *a);
 int app_sample(app *a);

@@ -8,6 +8,7 @@
 #include "formula/dimension.h"
 #include "measure/registry.h"
 #include "problem/schema.h"
+#include "suite/landscape.h"
 
 /* Where the items of a list go: into a table, or into JSON. */
 typedef struct sink {
@@ -147,11 +148,30 @@ static void templates(app *a, sink *s)
     }
 }
 
+static void functions(app *a, sink *s)
+{
+    (void)a;
+    for (const ves_landscape *const *l = ves_landscapes(); *l; l++) {
+        int most = (*l)->most ? (*l)->most : VES_LANDSCAPE_MOST, least = (*l)->least;
+        char many[48];
+        snprintf(many, sizeof many, least == most ? "%d" : "%d to %d", least, most);
+        begin(s, (*l)->name, (*l)->about);
+        if (!s->json) app_table_cell(&s->table, "%s", (*l)->about);
+        if (!s->json) app_table_cell(&s->table, "n: %s%s", many, (*l)->free ? ", may be turned" : "");
+        if (s->json) ves_json_integer(s->json, "least", least);
+        if (s->json) ves_json_integer(s->json, "most", most);
+        if (s->json) ves_json_integer(s->json, "inequalities", (*l)->inequalities);
+        if (s->json) ves_json_integer(s->json, "equalities", (*l)->equalities);
+        if (s->json) ves_json_flag(s->json, "rotate", (*l)->free);
+        end(s);
+    }
+}
+
 static const struct list {
     const char *name;
     void (*fill)(app *a, sink *s);
-} lists[] = {{"measures", measures}, {"curves", curves}, {"moves", moves},        {"algorithms", algorithms},
-             {"formats", formats},   {"units", units},   {"templates", templates}};
+} lists[] = {{"measures", measures}, {"curves", curves}, {"moves", moves},         {"algorithms", algorithms},
+             {"formats", formats},   {"units", units},   {"templates", templates}, {"functions", functions}};
 
 enum { LISTS = sizeof lists / sizeof *lists };
 
@@ -179,5 +199,5 @@ int app_list(app *a)
     int near = word ? ves_text_nearest(word, name, LISTS) : -1;
     if (near >= 0) return app_fail(a, VES_USAGE, "no list \"%s\", did you mean \"%s\"?", word, name[near]);
     return app_fail(a, VES_USAGE,
-                    "list what? measures, curves, moves, algorithms, formats, units or templates");
+                    "list what? measures, curves, moves, algorithms, formats, units, templates or functions");
 }

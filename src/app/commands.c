@@ -5,6 +5,13 @@
 const app_command app_commands[] = {
     {"run", "run FILE", "search for the best shape; the result goes into a numbered folder under runs/", 1, 1,
      PROBLEM "|seed|evaluations|jobs|out|progress|trace|test|no-files", app_run, NULL},
+    {"bench", "bench SUITE | bench --resume DIR",
+     "compare searches on the problems of a suite file; all runs go into a numbered folder under runs/", 0, 1,
+     "set|resume|add|jobs|out|progress|no-files", app_bench,
+     "bench/suites/ has suites to begin with; docs/benchmark.md tells what is printed, and how a program of "
+     "your "
+     "own\n"
+     "takes part. Exit code: 0 when all runs are done, 130 when interrupted: --resume goes on."},
     {"check", "check FILE", "read a problem file, measure its start design, say what a run will do", 1, 1,
      PROBLEM, app_check,
      "Exit code: 0 when the file is in order and its start design can be measured and passes its checks; 1 "
@@ -26,8 +33,8 @@ const app_command app_commands[] = {
      app_show, NULL},
     {"new", "new [TEMPLATE [FILE]]",
      "write a commented problem file to begin with; alone: list the templates", 0, 2, "", app_new, NULL},
-    {"list", "list measures|curves|moves|algorithms|formats|units|templates", "what problem files may use", 0,
-     1, "plugin|json", app_list, NULL},
+    {"list", "list measures|curves|moves|algorithms|formats|units|templates|functions",
+     "what problem files may use, and suites", 0, 1, "plugin|json", app_list, NULL},
     {"schema", "schema", "the JSON Schema of problem files, for editors", 0, 0, "plugin|reference",
      app_schema, NULL},
     {"explain", "explain WORD",

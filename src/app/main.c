@@ -77,7 +77,6 @@ static const char *later(const char *word)
 {
     static const char *const words[][2] = {
         {"sweep", "studies over parameters"},
-        {"bench", "comparing algorithms"},
         {"stability", "the stability of a result"},
         {"report", "report pages"},
         {"compare", "comparing runs"},

@@ -158,6 +158,8 @@ TEXT(patch)
 TEXT(points)
 TEXT(to)
 TEXT(png)
+TEXT(folder)
+TEXT(add)
 #undef TEXT
 
 #define FLAG(field)                                                                                          \
@@ -200,6 +202,8 @@ static const option table[] = {
     {"view", "AZIMUTH,HEIGHT", "where the viewer stands, in degrees", take_view},
     {"reference", NULL, "the reference chapter of the manual instead, in Markdown", take_reference},
     {"help", NULL, "this text", take_help},
+    {"resume", "DIR", "go on in the folder of a benchmark: runs that are done are not done again", take_folder},
+    {"add", "NAME={...}", "with --resume: one more method, as under `methods`", take_add},
     {"resume", "RUN", NULL, take_resume},
 };
 /* clang-format on */

@@ -5,7 +5,8 @@
 #include "base/arena.h"
 #include "vesica/diag.h"
 
-/* Makes PARENT/NAME-NNNN with the next free number. Two processes never get the same folder: mkdir decides. */
+/* Makes PARENT/NAME-NNNN with the next free number. Two processes never get the same folder: mkdir
+ * decides. */
 ves_status ves_folder_number(const char *parent, const char *name, ves_arena *arena, char **folder,
                              ves_diag *diag);
 

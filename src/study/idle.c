@@ -6,10 +6,10 @@
 #include "study/run.h"
 
 /* Slopes are looked at in a few designs near the start, where most can be measured, and as many anywhere,
- * because a formula may read a variable in one place and not in another. Never at the start itself, nor at
- * a bound: on the plane of symmetry that either often lies on, a slope may vanish for another reason. Those near
- * the start come nearer, by half every few tries, where most others fail. Rounding leaves 1e-16 of
- * the largest slope in one that should be 0. */
+ * because a formula may read a variable in one place and not in another. Never at the start itself, nor at a
+ * bound: on the plane of symmetry that either often lies on, a slope may vanish for another reason. Those
+ * near the start come nearer, by half every few tries, where most others fail. Rounding leaves 1e-16 of the
+ * largest slope in one that should be 0. */
 enum { TRIES = 64, ENOUGH = 8, HALVED = 8 };
 static const double AWAY = 0.1, ROUNDING = 1e-12;
 

@@ -1,4 +1,5 @@
-/* What is said of the best of a run once it is there: its joints, and whether what `expect:` asks for holds. */
+/* What is said of the best of a run once it is there: its joints, and whether what `expect:` asks for
+ * holds. */
 #ifndef VES_STUDY_JUDGE_H
 #define VES_STUDY_JUDGE_H
 

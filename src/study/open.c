@@ -39,7 +39,7 @@ static ves_status file_length(FILE *file, size_t *length)
     return end >= 0 && end <= LIMIT ? VES_OK : VES_IO;
 }
 
-static ves_status load(const char *path, ves_arena *arena, char **text, size_t *length)
+ves_status ves_study_load(const char *path, ves_arena *arena, char **text, size_t *length)
 {
     FILE *file = fopen(path, "rb");
     if (!file) return VES_IO;
@@ -53,8 +53,7 @@ static ves_status load(const char *path, ves_arena *arena, char **text, size_t *
     return status;
 }
 
-/* JSON is YAML. NULL: it is not whole, or no object. */
-static const ves_node *parse(const char *text, size_t length, ves_arena *arena)
+const ves_node *ves_study_json(const char *text, size_t length, ves_arena *arena)
 {
     ves_script *script = ves_arena_take(arena, 1, sizeof *script);
     const ves_node *root = NULL;
@@ -70,13 +69,13 @@ static ves_status best_read(const char *run, ves_arena *arena, best *out, ves_di
     *out = (best){.run = run};
     if (!path) return ves_diag_fail(diag, VES_MEMORY);
     errno = 0;
-    ves_status status = load(path, arena, &text, &length);
+    ves_status status = ves_study_load(path, arena, &text, &length);
     if (status == VES_MEMORY) return ves_diag_fail(diag, VES_MEMORY);
     if (status != VES_OK)
         return ves_diag_add(diag, VES_ERROR, VES_IO, NOWHERE,
                             "\"%s\" is not the folder of a finished run: \"%s\" cannot be read: %s", run,
                             path, errno ? strerror(errno) : "it is no file of a run");
-    const ves_node *root = parse(text, length, arena);
+    const ves_node *root = ves_study_json(text, length, arena);
     if (!root)
         return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE,
                             "\"%s\" is damaged or not whole: run \"%s/problem.yaml\" again", path, run);

@@ -4,6 +4,7 @@
 #define VES_STUDY_OPEN_H
 
 #include "problem/problem.h"
+#include "problem/tree.h"
 
 typedef struct ves_open_options {
     ves_read_options read; /* overrides come after those of a run */
@@ -20,5 +21,11 @@ typedef struct ves_opened {
 ves_status ves_study_open(const char *path, const ves_open_options *options, ves_opened *opened,
                           ves_diag *diag);
 void ves_study_close(ves_opened *opened);
+
+/* A file of up to 64 MB, terminated, in the arena. VES_IO: errno says why; 0: it is none, or larger. */
+ves_status ves_study_load(const char *path, ves_arena *arena, char **text, size_t *length);
+
+/* A JSON object as a tree (JSON is YAML). NULL: it is not whole, or no object. */
+const ves_node *ves_study_json(const char *text, size_t length, ves_arena *arena);
 
 #endif

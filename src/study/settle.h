@@ -18,8 +18,8 @@ bool ves_settle_search(const ves_search_options *search, const ves_run *run, lon
  * from which they come. */
 ves_status ves_settle_hits(const ves_optimum *old, int count, ves_arena *arena, ves_run *run);
 
-/* After a search: when the grid does not settle the best, another one and a last polish there, or the advice to
- * give one. */
+/* After a search: when the grid does not settle the best, another one and a last polish there, or the advice
+ * to give one. */
 ves_status ves_settle_best(ves_study *study);
 
 #endif

@@ -1,0 +1,159 @@
+/* vesica bench */
+#include <math.h>
+#include <string.h>
+
+#include "app/app.h"
+#include "app/table.h"
+#include "problem/suite.h"
+#include "study/bench.h"
+#include "study/folder.h"
+
+typedef struct listener {
+    app *a;
+    double spoken; /* s */
+} listener;
+
+static void begun(void *data, const ves_bench *bench)
+{
+    listener *l = data;
+    const ves_suite *s = bench->suite;
+    char p[64], m[64], r[64];
+    app_say(l->a);
+    fprintf(stderr, "%s  %s\n  %s, %s, %s of each, %d %s\n", s->name, s->title,
+            app_screen_plural(s->bouts, "problem", "problems", p),
+            app_screen_plural(s->entrants, "method", "methods", m),
+            app_screen_plural(s->seeds, "run", "runs", r), bench->jobs, bench->jobs == 1 ? "job" : "jobs");
+    if (bench->before) fprintf(stderr, "  %d of %d runs are there already\n", bench->before, bench->runs);
+    l->spoken = ves_study_clock();
+}
+
+static void progress(void *data, const ves_bench *bench, int index)
+{
+    listener *l = data;
+    double now = ves_study_clock(), every = 10;
+    (void)index;
+    if (l->a->options.progress == VES_PROGRESS_NONE || now - l->spoken < every) return;
+    l->spoken = now;
+    ves_suite_place place = ves_suite_run(bench->suite, index);
+    fprintf(stderr, "  %d of %d runs, at %s on %s\n", bench->done, bench->runs,
+            bench->suite->entrant[place.entrant].name, bench->suite->bout[place.bout].name);
+}
+
+static bool stopped(void *data)
+{
+    (void)data;
+    return app_interrupt_asked();
+}
+
+static double reference(const ves_bench *b, int bout)
+{
+    double best = b->bout[bout].optimum;
+    for (int k = 0; isnan(b->bout[bout].optimum) && k < b->runs; k++) {
+        const ves_outcome *o = &b->outcome[k];
+        if (ves_suite_run(b->suite, k).bout != bout || !o->done || !o->any || o->violation > 1) continue;
+        if (!(best <= o->value)) best = o->value;
+    }
+    return best;
+}
+
+static void cell(app_table *t, const ves_bench *b, int entrant, int bout)
+{
+    double target = ves_suite_value(reference(b, bout), b->suite->target[VES_TARGETS - 1]), sum = 0;
+    int hits = 0, runs = 0, failed = 0;
+    for (int k = 0; k < b->runs; k++) {
+        ves_suite_place p = ves_suite_run(b->suite, k);
+        if (p.bout != bout || p.entrant != entrant || !b->outcome[k].done) continue;
+        double cost = ves_outcome_reach(&b->outcome[k], target);
+        runs++;
+        failed += b->outcome[k].failed;
+        hits += isfinite(cost);
+        sum += isfinite(cost) ? cost : b->outcome[k].spent;
+    }
+    if (failed == runs && runs)
+        app_table_cell(t, "failed");
+    else if (hits)
+        app_table_cell(t, "%d/%d %.4g", hits, runs, sum / hits);
+    else
+        app_table_cell(t, "0/%d", runs);
+}
+
+static void hits_print(app *a, const ves_bench *b)
+{
+    char *align = ves_arena_take(&a->arena, (size_t)b->suite->entrants + 2, 1);
+    if (!align) return;
+    memset(align, 'l', (size_t)b->suite->entrants + 1);
+    app_table t = {.align = align};
+    app_table_cell(&t, "problem");
+    for (int e = 0; e < b->suite->entrants; e++) app_table_cell(&t, "%s", b->suite->entrant[e].name);
+    app_table_end(&t);
+    for (int p = 0; p < b->suite->bouts; p++) {
+        app_table_cell(&t, "%s", b->suite->bout[p].name);
+        for (int e = 0; e < b->suite->entrants; e++) cell(&t, b, e, p);
+        app_table_end(&t);
+    }
+    app_table_print(&t, stdout);
+}
+
+/* --add NAME={...} is --set methods.NAME={...}. */
+static bool added(app *a, ves_override *add)
+{
+    const char *text = a->options.add, *equals = text ? strchr(text, '=') : NULL;
+    if (!text) return false;
+    if (!equals || equals == text) {
+        app_fail(a, VES_USAGE, "--add needs NAME={...} as under `methods`, got \"%s\"", text);
+        return false;
+    }
+    add->name = ves_arena_format(&a->arena, "methods.%.*s", (int)(equals - text), text);
+    add->value = equals + 1;
+    if (!add->name) app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
+    return add->name;
+}
+
+static ves_status resume(app *a, const ves_bench_options *options, const ves_bench_hooks *hooks,
+                         ves_bench **bench)
+{
+    const app_options *o = &a->options;
+    ves_override add;
+    if (a->operands || o->sets || o->out || o->no_files) {
+        app_fail(a, VES_USAGE,
+                 "--resume goes on with the suite of its folder: no file, --set, --out or --no-files");
+        return VES_USAGE;
+    }
+    bool more = added(a, &add);
+    if (o->add && !more) return VES_USAGE;
+    const ves_read_options read = {.overrides = more, .override = &add};
+    return ves_bench_resume(o->folder, &read, options, hooks, bench, a->diag);
+}
+
+static ves_status begin(app *a, const ves_bench_options *options, const ves_bench_hooks *hooks,
+                        ves_bench **bench)
+{
+    const app_options *o = &a->options;
+    ves_suite *suite = NULL;
+    if (!a->operands || o->add) {
+        app_fail(a, VES_USAGE,
+                 o->add ? "--add goes with --resume" : "vesica bench needs a suite file, or --resume DIR");
+        return VES_USAGE;
+    }
+    const ves_read_options read = {.overrides = o->sets, .override = o->set};
+    VES_TRY(ves_suite_read(a->operand[0], &read, &suite, a->diag));
+    return ves_bench_run(suite, options, hooks, bench, a->diag);
+}
+
+int app_bench(app *a)
+{
+    const app_options *o = &a->options;
+    listener l = {.a = a};
+    const ves_bench_hooks hooks = {.begun = begun, .progress = progress, .stopped = stopped, .data = &l};
+    const ves_bench_options options = {.jobs = o->jobs, .out = o->out, .no_files = o->no_files};
+    ves_bench *bench = NULL;
+    app_interrupt_listen();
+    ves_status status = (o->folder ? resume : begin)(a, &options, &hooks, &bench);
+    app_say(a);
+    if (bench) {
+        hits_print(a, bench);
+        if (bench->folder) printf("%s/\n", bench->folder);
+    }
+    ves_bench_destroy(bench);
+    return status == VES_INTERRUPTED ? APP_INTERRUPTED : app_code(status);
+}

@@ -1,0 +1,291 @@
+#include "study/bench.h"
+
+#include <math.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/diag.h"
+#include "base/pool.h"
+#include "problem/suite.h"
+#include "study/bench_folder.h"
+#include "study/folder.h"
+#include "study/ring.h"
+#include "study/run.h"
+
+enum { JOBS_MOST = 256 };
+
+/* What ves_bench_run makes: first what the caller holds. */
+typedef struct bench {
+    ves_bench shown;
+    ves_arena arena;
+    const ves_bench_hooks *hooks;
+    ves_diag *diag;
+    ves_ring *ring; /* [bouts] */
+    ves_pool *pool;
+    ves_bench_files files;
+    int ready;         /* lines written: the first so many runs */
+    ves_status status; /* the first failure; under the pool's lock */
+} bench;
+
+static int jobs_of(const ves_bench_options *options)
+{
+    long count = options->jobs > 0 ? options->jobs : sysconf(_SC_NPROCESSORS_ONLN);
+    return count < 1 ? 1 : count > JOBS_MOST ? JOBS_MOST : (int)count;
+}
+
+static bool stopped(void *data)
+{
+    const bench *b = data;
+    return b->hooks->stopped && b->hooks->stopped(b->hooks->data);
+}
+
+/* --- one run --- */
+
+static ves_status outcome_take(const ves_contest *contest, ves_outcome *o)
+{
+    ves_meter *meter = contest->meter;
+    o->failed = contest->failed;
+    o->hit = meter->hit;
+    o->any = meter->any;
+    o->budget = meter->budget;
+    o->spent = meter->spent;
+    o->evaluations = meter->evaluations;
+    o->gradients = meter->gradients;
+    o->failures = meter->failed;
+    o->starts = contest->starts;
+    o->value = meter->value;
+    o->violation = meter->violation;
+    o->n = meter->inner->n;
+    o->inside = meter->inside;
+    memcpy(o->reason, contest->reason, sizeof o->reason);
+    o->x = ves_memory_take((size_t)o->n * sizeof *o->x);
+    if (!o->x) return VES_MEMORY;
+    memcpy(o->x, meter->x, (size_t)o->n * sizeof *o->x);
+    o->steps = meter->steps;
+    o->step = meter->step; /* taken over */
+    meter->step = NULL;
+    return VES_OK;
+}
+
+static ves_status fight(bench *b, int worker, int index, ves_arena *arena, ves_outcome *outcome)
+{
+    const ves_suite *suite = b->shown.suite;
+    ves_suite_place place = ves_suite_run(suite, index);
+    const ves_bout *bout = &suite->bout[place.bout];
+    ves_pose pose;
+    VES_TRY(ves_ring_pose(&b->ring[place.bout], worker, place.seed, arena, &pose));
+    bool own = bout->kind == VES_BOUT_FILE;
+    ves_meter meter = {.inner = &pose.problem,
+                       .budget = ves_suite_budget(suite, pose.problem.n),
+                       .cost = suite->cost,
+                       .cost_gradient = suite->cost_gradient,
+                       .inequality = own ? 0 : suite->inequality,
+                       .equality = suite->equality,
+                       .target = isnan(pose.optimum)
+                                     ? -HUGE_VAL
+                                     : ves_suite_value(pose.optimum, suite->target[VES_TARGETS - 1]),
+                       .clock = ves_study_clock};
+    ves_contest contest = {.entrant = &suite->entrant[place.entrant],
+                           .meter = &meter,
+                           .seed = ves_suite_seed(suite, bout, place.seed),
+                           .stopped = stopped,
+                           .data = b};
+    ves_status status = ves_meter_begin(&meter) ? VES_OK : VES_MEMORY;
+    double begin = ves_study_clock();
+    if (status == VES_OK) status = ves_contest_run(&contest);
+    outcome->wall = ves_study_clock() - begin;
+    if (status == VES_OK) status = outcome_take(&contest, outcome);
+    ves_meter_end(&meter);
+    return status;
+}
+
+/* Writes the lines of all runs that are next. Under the lock. */
+static ves_status commit(bench *b, int index, ves_outcome *outcome)
+{
+    outcome->done = true;
+    for (; b->ready < b->shown.runs && b->shown.outcome[b->ready].done; b->ready++)
+        if (b->files.folder)
+            VES_TRY(ves_bench_line_write(&b->files, b->shown.suite, b->ready, &b->shown.outcome[b->ready]));
+    b->shown.done++;
+    if (b->hooks->progress) b->hooks->progress(b->hooks->data, &b->shown, index);
+    return VES_OK;
+}
+
+static void task(void *data, int worker, int number)
+{
+    bench *b = data;
+    int index = b->shown.before + number;
+    ves_outcome *outcome = &b->shown.outcome[index];
+    ves_arena arena = {0};
+    ves_pool_lock(b->pool);
+    ves_status status = b->status;
+    ves_pool_unlock(b->pool);
+    if (status != VES_OK || stopped(b)) return;
+    status = fight(b, worker, index, &arena, outcome);
+    ves_arena_destroy(&arena);
+    if (status == VES_OK && b->files.folder)
+        status = ves_bench_journal_write(b->files.folder, index, outcome);
+    ves_pool_lock(b->pool);
+    if (status == VES_IO) ves_diag_add(b->diag, VES_ERROR, VES_IO, (ves_mark){0}, "cannot write a journal");
+    if (status == VES_OK) status = commit(b, index, outcome);
+    if (status != VES_OK && b->status == VES_OK) b->status = status;
+    ves_pool_unlock(b->pool);
+}
+
+/* --- all of them --- */
+
+static ves_status rings_open(bench *b)
+{
+    ves_suite *suite = b->shown.suite;
+    ves_bench_bout *facts = ves_arena_take(&b->arena, (size_t)suite->bouts, sizeof *facts);
+    b->ring = ves_arena_take(&b->arena, (size_t)suite->bouts, sizeof *b->ring);
+    if (!b->ring || !facts) return ves_diag_fail(b->diag, VES_MEMORY);
+    for (int k = 0; k < suite->bouts; k++) {
+        VES_TRY(ves_ring_open(&b->ring[k], suite, &suite->bout[k], b->shown.jobs, &b->arena, b->diag));
+        facts[k] = b->ring[k].facts;
+    }
+    b->shown.bout = facts;
+    return VES_OK;
+}
+
+static ves_status all_run(bench *b)
+{
+    ves_status status = rings_open(b);
+    if (status == VES_OK && b->hooks->begun) b->hooks->begun(b->hooks->data, &b->shown);
+    b->pool = status == VES_OK ? ves_pool_create(b->shown.jobs) : NULL;
+    if (status == VES_OK && !b->pool) status = ves_diag_fail(b->diag, VES_MEMORY);
+    if (status == VES_OK) {
+        b->ready = b->shown.done = b->shown.before;
+        ves_pool_run(b->pool, b->shown.runs - b->shown.before, task, b);
+        status = b->status;
+        if (status == VES_OK && stopped(b) && b->shown.done < b->shown.runs) status = VES_INTERRUPTED;
+        if (status == VES_MEMORY) ves_diag_fail(b->diag, status);
+    }
+    ves_pool_destroy(b->pool);
+    for (int k = 0; b->ring && k < b->shown.suite->bouts; k++) ves_ring_close(&b->ring[k]);
+    return status;
+}
+
+static bench *bench_create(ves_suite *suite, const ves_bench_options *options, const ves_bench_hooks *hooks,
+                           ves_diag *diag)
+{
+    bench *b = ves_memory_take(sizeof *b);
+    if (!b) {
+        ves_suite_destroy(suite);
+        ves_diag_fail(diag, VES_MEMORY);
+        return NULL;
+    }
+    b->hooks = hooks;
+    b->diag = diag;
+    b->shown.suite = suite;
+    b->shown.jobs = jobs_of(options);
+    b->shown.runs = ves_suite_runs(suite);
+    b->shown.outcome = ves_arena_take(&b->arena, (size_t)b->shown.runs, sizeof *b->shown.outcome);
+    if (b->shown.outcome) return b;
+    ves_diag_fail(diag, VES_MEMORY);
+    ves_bench_destroy(&b->shown);
+    return NULL;
+}
+
+/* Runs what is left, and hands out what there is. */
+static ves_status finish(bench *b, ves_status status, ves_bench **out)
+{
+    double begin = ves_study_clock();
+    if (status == VES_OK) status = all_run(b);
+    b->shown.wall = ves_study_clock() - begin;
+    ves_status closed = ves_bench_files_end(&b->files);
+    if (status == VES_OK) status = closed;
+    if (b->shown.bout && b->shown.done > 0)
+        *out = &b->shown;
+    else
+        ves_bench_destroy(&b->shown);
+    return status;
+}
+
+ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, const ves_bench_hooks *hooks,
+                         ves_bench **out, ves_diag *diag)
+{
+    char *folder = NULL;
+    *out = NULL;
+    bench *b = bench_create(suite, options, hooks, diag);
+    if (!b) return VES_MEMORY;
+    ves_status status = VES_OK;
+    if (!options->no_files)
+        status = options->out ? ves_folder_make(options->out, &b->arena, &folder, diag)
+                              : ves_folder_number("runs", suite->name, &b->arena, &folder, diag);
+    if (status == VES_OK && folder) {
+        b->shown.folder = b->files.folder = folder;
+        status = ves_bench_files_begin(&b->files, suite, diag);
+    }
+    return finish(b, status, out);
+}
+
+/* Methods that were there first, in their order; then those that have been added. */
+static void order(ves_suite *suite, const ves_bench_about *about, ves_entrant *room)
+{
+    int count = 0;
+    for (int k = 0; k < about->methods; k++)
+        for (int e = 0; e < suite->entrants; e++)
+            if (!strcmp(suite->entrant[e].name, about->method[k])) room[count++] = suite->entrant[e];
+    for (int e = 0; e < suite->entrants; e++) {
+        bool old = false;
+        for (int k = 0; k < about->methods; k++)
+            old = old || !strcmp(suite->entrant[e].name, about->method[k]);
+        if (!old) room[count++] = suite->entrant[e];
+    }
+    suite->entrant = room;
+}
+
+static ves_status reopen(const char *folder, const ves_read_options *added, ves_suite **suite, ves_diag *diag)
+{
+    ves_arena arena = {0};
+    ves_bench_about about;
+    static const char prefix[] = "methods.";
+    ves_status status = ves_bench_about_read(folder, &arena, &about, diag);
+    for (int k = 0; status == VES_OK && added->overrides && k < about.methods; k++)
+        if (!strcmp(added->override->name + strlen(prefix), about.method[k]))
+            status = ves_diag_add(diag, VES_ERROR, VES_USAGE, (ves_mark){0},
+                                  "\"%s\" has a method \"%s\" already: give this one another name", folder,
+                                  about.method[k]);
+    if (status == VES_OK)
+        status = ves_suite_read_text(about.path, about.text, about.length, added, suite, diag);
+    if (status == VES_OK) {
+        ves_entrant *room =
+            ves_arena_take(&(*suite)->arena, (size_t)((*suite)->entrants + about.methods), sizeof *room);
+        if (room)
+            order(*suite, &about, room);
+        else
+            status = ves_diag_fail(diag, VES_MEMORY), ves_suite_destroy(*suite);
+    }
+    ves_arena_destroy(&arena);
+    return status;
+}
+
+ves_status ves_bench_resume(const char *folder, const ves_read_options *added,
+                            const ves_bench_options *options, const ves_bench_hooks *hooks, ves_bench **out,
+                            ves_diag *diag)
+{
+    ves_suite *suite = NULL;
+    *out = NULL;
+    VES_TRY(reopen(folder, added, &suite, diag));
+    bench *b = bench_create(suite, options, hooks, diag);
+    if (!b) return VES_MEMORY;
+    b->shown.folder = ves_arena_text(&b->arena, folder, strlen(folder));
+    ves_status status = b->shown.folder ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
+    if (status == VES_OK)
+        status = ves_bench_files_again(&b->files, b->shown.folder, suite, b->shown.outcome, &b->shown.before,
+                                       diag);
+    if (status == VES_OK && added->overrides) status = ves_bench_suite_write(folder, suite, diag);
+    return finish(b, status, out);
+}
+
+void ves_bench_destroy(ves_bench *shown)
+{
+    if (!shown) return;
+    bench *b = (bench *)shown;
+    for (int k = 0; b->shown.outcome && k < b->shown.runs; k++) ves_outcome_clear(&b->shown.outcome[k]);
+    ves_suite_destroy(b->shown.suite);
+    ves_arena arena = b->arena;
+    ves_memory_free(b);
+    ves_arena_destroy(&arena);
+}

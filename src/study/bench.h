@@ -1,0 +1,59 @@
+/* Bench: a suite run, in a folder that can be gone on with.
+ *
+ *     suite.yaml      the suite as run        bench.json   where it was, which vesica ran it
+ *     runs.jsonl      one line a run, in the order of the suite, whatever the number of threads
+ *     times.jsonl     what clocks say of each
+ *     journals/NNNNN.jsonl   the improvements of run NNNNN: [cost, value, violation] */
+#ifndef VES_STUDY_BENCH_H
+#define VES_STUDY_BENCH_H
+
+#include "suite/outcome.h"
+#include "vesica/diag.h"
+
+typedef struct ves_bench ves_bench;
+
+typedef struct ves_bench_hooks {
+    void (*begun)(void *data, const ves_bench *bench);              /* before the first run */
+    void (*progress)(void *data, const ves_bench *bench, int done); /* after each, one call at a time */
+    bool (*stopped)(void *data);                                    /* from any thread */
+    void *data;
+} ves_bench_hooks;
+
+typedef struct ves_bench_options {
+    int jobs;        /* 0: all threads of the machine */
+    const char *out; /* this folder, new or empty; NULL: runs/NAME-NNNN */
+    bool no_files;
+} ves_bench_options;
+
+/* What a problem of the suite turned out to be. */
+typedef struct ves_bench_bout {
+    int n, m, equalities;
+    bool gradients;
+    double optimum;                   /* NAN: not known */
+    double seconds, seconds_gradient; /* of one evaluation, measured; NAN: not */
+} ves_bench_bout;
+
+struct ves_bench {
+    ves_suite *suite;
+    const char *folder;   /* NULL: none */
+    int jobs, runs, done; /* done: the first so many */
+    int before;           /* of them done by earlier processes */
+    ves_outcome *outcome; /* [runs] */
+    const ves_bench_bout *bout;
+    double wall; /* s, of this process */
+};
+
+/* Takes the suite over, also when it fails. *bench is not NULL where runs were made, also after
+ * VES_INTERRUPTED and when a file could not be written. */
+ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, const ves_bench_hooks *hooks,
+                         ves_bench **bench, ves_diag *diag);
+
+/* Goes on in a folder, from where it was left. added: no override, or one named methods.NAME: one more
+ * method. */
+ves_status ves_bench_resume(const char *folder, const ves_read_options *added,
+                            const ves_bench_options *options, const ves_bench_hooks *hooks, ves_bench **bench,
+                            ves_diag *diag);
+
+void ves_bench_destroy(ves_bench *bench);
+
+#endif

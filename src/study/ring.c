@@ -1,0 +1,184 @@
+#include "study/ring.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "study/run.h"
+
+/* Evaluations are timed until so many have been asked or so many seconds are over. */
+enum { TIMED = 200 };
+static const double timed_seconds = 0.02;
+
+static ves_status evaluate_instance(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
+{
+    ves_pose *pose = data;
+    (void)worker;
+    return ves_instance_eval(&pose->instance, ask->x, ask->want & VES_WANT_GRADIENT, verdict, pose->room);
+}
+
+static double width(const ves_search_problem *p, int i)
+{
+    return p->upper[i] - p->lower[i];
+}
+
+static void place(const ves_search_problem *p, const double *u, double *x)
+{
+    for (int i = 0; i < p->n; i++) {
+        x[i] = p->lower[i] + u[i] * width(p, i);
+        x[i] = fmin(fmax(x[i], p->lower[i]), p->upper[i]);
+    }
+}
+
+static ves_status evaluate_file(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
+{
+    ves_pose *pose = data;
+    const ves_search_problem *p = &pose->file;
+    ves_ask inner = *ask;
+    inner.x = pose->x;
+    (void)worker;
+    place(p, ask->x, pose->x);
+    ves_status status = p->evaluate(p->data, 0, &inner, verdict);
+    if (status != VES_OK || verdict->status != VES_OK || !(ask->want & VES_WANT_GRADIENT)) return status;
+    for (int i = 0; i < p->n; i++) {
+        verdict->gradient[i] *= width(p, i);
+        for (int j = 0; j < p->m; j++) verdict->jacobian[(size_t)j * p->n + i] *= width(p, i);
+    }
+    return VES_OK;
+}
+
+static ves_status same_file(void *data, const double *a, const double *b, bool *same)
+{
+    ves_pose *pose = data;
+    const ves_search_problem *p = &pose->file;
+    double *other = pose->room;
+    place(p, a, pose->x);
+    place(p, b, other);
+    return p->same(p->data, pose->x, other, same);
+}
+
+static ves_status pose_instance(ves_ring *ring, int seed, ves_arena *arena, ves_pose *pose)
+{
+    const ves_bout *bout = ring->bout;
+    VES_TRY(ves_instance_init(arena, bout->landscape, bout->n, bout->turned, seed, &pose->instance));
+    pose->problem.n = pose->instance.n;
+    pose->problem.m = pose->instance.m;
+    pose->problem.equality = pose->instance.equality;
+    pose->problem.gradients = true;
+    pose->problem.evaluate = evaluate_instance;
+    pose->optimum = pose->instance.optimum;
+    return VES_OK;
+}
+
+static ves_status plan_of(ves_ring *ring, int worker, ves_diag *diag)
+{
+    const ves_plan_options grid = {{ring->grid[0], ring->grid[1]}};
+    if (ring->plan[worker]) return VES_OK;
+    return ves_plan_create(ring->problem, ring->grid[0] ? &grid : NULL, &ring->plan[worker], diag);
+}
+
+static ves_status pose_file(ves_ring *ring, int worker, ves_pose *pose)
+{
+    VES_TRY(plan_of(ring, worker, NULL));
+    pose->file = ves_plan_search(&ring->plan[worker], 1);
+    pose->problem = pose->file;
+    pose->problem.evaluate = evaluate_file;
+    if (pose->file.same) pose->problem.same = same_file;
+    pose->optimum = ring->bout->optimum;
+    return VES_OK;
+}
+
+ves_status ves_ring_pose(ves_ring *ring, int worker, int seed, ves_arena *arena, ves_pose *pose)
+{
+    *pose = (ves_pose){.optimum = NAN};
+    if (ring->bout->kind == VES_BOUT_LANDSCAPE)
+        VES_TRY(pose_instance(ring, seed, arena, pose));
+    else
+        VES_TRY(pose_file(ring, worker, pose));
+    size_t n = (size_t)pose->problem.n;
+    double *bound = ves_arena_take(arena, 2 * n, sizeof *bound);
+    pose->room = ves_arena_take(arena, 2 * n, sizeof *pose->room);
+    pose->x = ves_arena_take(arena, n, sizeof *pose->x);
+    if (!bound || !pose->room || !pose->x) return VES_MEMORY;
+    for (size_t i = 0; i < n; i++) bound[n + i] = 1;
+    pose->problem.lower = bound;
+    pose->problem.upper = bound + n;
+    pose->problem.start = NULL;
+    pose->problem.name = NULL;
+    pose->problem.others = 0;
+    pose->problem.data = pose;
+    pose->problem.workers = 1;
+    return VES_OK;
+}
+
+/* Seconds of one evaluation at random points; NAN: none could be measured. */
+static double timed(const ves_search_problem *p, bool slopes, ves_arena *arena)
+{
+    size_t n = (size_t)p->n, m = (size_t)p->m;
+    double *u = ves_arena_take(arena, 2 * n + m + m * n, sizeof *u);
+    if (!u || (slopes && !p->gradients)) return NAN;
+    ves_verdict verdict = {.gradient = u + n, .constraint = u + 2 * n, .jacobian = u + 2 * n + m};
+    const ves_ask ask = {.x = u, .cutoff = HUGE_VAL, .want = slopes ? VES_WANT_GRADIENT : VES_WANT_VALUE};
+    double sum = 0;
+    int count = 0;
+    for (int k = 0; k < TIMED && sum < timed_seconds; k++) {
+        ves_instance_start(1, k, p->n, u);
+        verdict.status = VES_OK;
+        double begin = ves_study_clock();
+        bool good = p->evaluate(p->data, 0, &ask, &verdict) == VES_OK && verdict.status == VES_OK;
+        if (good) sum += ves_study_clock() - begin, count++;
+    }
+    return count ? sum / count : NAN;
+}
+
+static ves_status facts_find(ves_ring *ring, ves_diag *diag)
+{
+    ves_arena arena = {0};
+    ves_pose pose;
+    ves_status status = ves_ring_pose(ring, 0, 0, &arena, &pose);
+    if (status == VES_OK) {
+        const ves_search_problem *p = &pose.problem;
+        ring->facts =
+            (ves_bench_bout){.n = p->n, .m = p->m, .gradients = p->gradients, .optimum = pose.optimum};
+        for (int j = 0; j < p->m; j++) ring->facts.equalities += p->equality && p->equality[j];
+        ring->facts.seconds = timed(p, false, &arena);
+        ring->facts.seconds_gradient = timed(p, true, &arena);
+    }
+    ves_arena_destroy(&arena);
+    return status == VES_OK ? VES_OK : ves_diag_fail(diag, status);
+}
+
+static ves_status file_open(ves_ring *ring, ves_diag *diag)
+{
+    const ves_bout *bout = ring->bout;
+    const ves_read_options options = {.overrides = bout->sets, .override = bout->set};
+    VES_TRY(ves_problem_read(bout->path, &options, &ring->problem, diag));
+    bool maximize;
+    if (ves_problem_variables(ring->problem) < 1 || !ves_problem_objective(ring->problem, &maximize))
+        return ves_diag_add(diag, VES_ERROR, VES_USAGE, bout->mark,
+                            "\"%s\" has no objective or no variables: there is nothing to compare",
+                            bout->path);
+    VES_TRY(plan_of(ring, 0, diag));
+    ves_plan_grid(ring->plan[0], ring->grid);
+    return VES_OK;
+}
+
+ves_status ves_ring_open(ves_ring *ring, const ves_suite *suite, const ves_bout *bout, int jobs,
+                         ves_arena *arena, ves_diag *diag)
+{
+    *ring = (ves_ring){.suite = suite, .bout = bout, .jobs = jobs};
+    if (bout->kind == VES_BOUT_PLUGIN)
+        return ves_diag_add(diag, VES_ERROR, VES_ABSENT, bout->mark, "objectives of plugins are not run yet");
+    ring->plan = ves_arena_take(arena, (size_t)jobs, sizeof(ves_plan *));
+    if (!ring->plan) return ves_diag_fail(diag, VES_MEMORY);
+    if (bout->kind == VES_BOUT_FILE) VES_TRY(file_open(ring, diag));
+    return facts_find(ring, diag);
+}
+
+void ves_ring_close(ves_ring *ring)
+{
+    for (int k = 0; ring->plan && k < ring->jobs; k++) ves_plan_destroy(ring->plan[k]);
+    ves_problem_destroy(ring->problem);
+    ring->plan = NULL;
+    ring->problem = NULL;
+}

@@ -1,0 +1,36 @@
+/* Ring: a problem of a suite made ready to be fought over by several threads: seen from the unit box. */
+#ifndef VES_STUDY_RING_H
+#define VES_STUDY_RING_H
+
+#include "study/bench.h"
+#include "suite/instance.h"
+#include "vesica/plan.h"
+
+typedef struct ves_ring {
+    const ves_suite *suite;
+    const ves_bout *bout;
+    ves_bench_bout facts;
+    ves_problem *problem; /* FILE */
+    int grid[2];
+    int jobs;
+    ves_plan **plan; /* [jobs], made when first asked for */
+} ves_ring;
+
+/* Reads what the bout names and tells its facts. */
+ves_status ves_ring_open(ves_ring *ring, const ves_suite *suite, const ves_bout *bout, int jobs,
+                         ves_arena *arena, ves_diag *diag);
+void ves_ring_close(ves_ring *ring);
+
+/* Run `seed` of it, for one thread: lives as long as the arena. */
+typedef struct ves_pose {
+    ves_search_problem problem; /* in the unit box; without a start */
+    double optimum;             /* NAN: not known */
+    /* behind it */
+    ves_instance instance;
+    double *room;            /* [2 n] */
+    ves_search_problem file; /* in its own units */
+    double *x;               /* [n] */
+} ves_pose;
+ves_status ves_ring_pose(ves_ring *ring, int worker, int seed, ves_arena *arena, ves_pose *pose);
+
+#endif

@@ -1,0 +1,107 @@
+/* vesica bench, as a user meets it. */
+#include <criterion/criterion.h>
+#include <dirent.h>
+
+#include "program.h"
+
+static const char suite[] =
+    "vesica: 1\nsuite: a small one\nproblems:\n  - {function: rastrigin, n: 4, rotate: true}\n  - {function: "
+    "g13}\n"
+    "  - {function: sphere, n: 3}\nseeds: 3\nbudget: {per_dimension: 300}\nmethods:\n  auto: {search: auto}\n"
+    "  anneal: {search: [{anneal: {chains: 2}}], doubling: true, gradients: false}\n  isres: {nlopt: "
+    "GN_ISRES}\n"
+    "  crs2: {nlopt: GN_CRS2_LM}\n  mlsl: {nlopt: G_MLSL_LDS, local: LD_LBFGS}\n"
+    "  auglag: {nlopt: AUGLAG, local: LD_LBFGS}\n";
+
+static void same_file(const char *a, const char *b)
+{
+    char *x = slurp(a), *y = slurp(b);
+    cr_expect(!strcmp(x, y), "%s and %s differ", a, b);
+    free(x);
+    free(y);
+}
+
+static int count_of(const char *path, const char *word)
+{
+    char *text = slurp(path);
+    int count = 0;
+    for (const char *at = text; (at = strstr(at, word)); at++) count++;
+    free(text);
+    return count;
+}
+
+Test(cli_bench, the_same_bytes_for_any_number_of_jobs)
+{
+    root_make();
+    write_file("s.yaml", suite);
+    expect(vesica(NULL, "bench s.yaml --jobs 1 --out one"), 0, "rot_rastrigin 4", "3 problems, 6 methods",
+           "one");
+    expect(vesica(NULL, "bench s.yaml --jobs 3 --out three"), 0, "sphere 3", NULL, "three");
+    same_file("one/runs.jsonl", "three/runs.jsonl");
+    for (int k = 0; k < 54; k++) {
+        char a[64], b[64];
+        snprintf(a, sizeof a, "one/journals/%05d.jsonl", k);
+        snprintf(b, sizeof b, "three/journals/%05d.jsonl", k);
+        same_file(a, b);
+    }
+    cr_expect(count_of("one/runs.jsonl", "\n") == 54);
+    cr_expect(count_of("one/runs.jsonl",
+                       "\"end\":\"failed\",\"reason\":\"NLopt's GN_CRS2_LM does not take equations\"") == 3);
+    cr_expect(count_of("one/times.jsonl", "wall_s") == 54);
+    root_remove();
+}
+
+/* Cut anywhere, in the middle of a line too, and gone on with; then with one method more. */
+Test(cli_bench, goes_on_where_it_was_broken_off, .timeout = 120)
+{
+    root_make();
+    write_file("s.yaml", suite);
+    expect(vesica(NULL, "bench s.yaml --out whole"), 0, NULL, NULL, "whole");
+    for (int part = 1; part < 6; part++) {
+        char *text = slurp("whole/runs.jsonl");
+        cr_assert(system("rm -rf part && cp -r whole part") == 0);
+        text[strlen(text) * (size_t)part / 6] = 0;
+        write_file("part/runs.jsonl", text);
+        free(text);
+        expect(vesica(NULL, "bench --resume part --jobs 2"), 0, NULL, "runs are there already", "resumed");
+        same_file("whole/runs.jsonl", "part/runs.jsonl");
+    }
+    expect(vesica(NULL, "bench --resume part --add nm={nlopt:LN_NELDERMEAD}"), 2, NULL, "nlopt:LN_NELDERMEAD",
+           "no blank");
+    same_file("whole/bench.json", "part/bench.json");
+    expect(vesica(NULL, "bench --resume part --add nm={\"nlopt\":LN_NELDERMEAD}"), 0, "nm", NULL, "added");
+    cr_expect(count_of("part/runs.jsonl", "\n") == 63 && count_of("part/bench.json", "nm") == 1);
+    expect(vesica(NULL, "bench --resume part --add nm={\"nlopt\":LN_COBYLA}"), 2, NULL, "already", "again");
+    expect(vesica(NULL, "bench --resume part"), 0, "nm", "63 of 63", "nothing left");
+    root_remove();
+}
+
+/* Killed at any moment. */
+Test(cli_bench, survives_kills, .timeout = 120)
+{
+    root_make();
+    write_file("s.yaml", suite);
+    expect(vesica(NULL, "bench s.yaml --out whole"), 0, NULL, NULL, "whole");
+    pid_t child = launch("bench s.yaml --out killed --jobs 2", NULL, "stdout");
+    wait_for_file("killed/runs.jsonl");
+    for (int k = 0; k < 5; k++) {
+        nanosleep(&(struct timespec){.tv_nsec = 15000000 * (k + 1)}, NULL);
+        kill(child, SIGKILL);
+        wait_for(child);
+        child = launch("bench --resume killed --jobs 2", NULL, "stdout");
+    }
+    cr_expect(wait_for(child) == 0);
+    same_file("whole/runs.jsonl", "killed/runs.jsonl");
+    root_remove();
+}
+
+Test(cli_bench, shapes_are_measured_against_the_best_of_all)
+{
+    root_make();
+    write_file("s.yaml",
+               "vesica: 1\nsuite: shapes\nproblems: [{file: " PROBLEMS "bottle.yaml, name: can}]\nseeds: 2\n"
+               "budget: {per_dimension: 100}\nmethods: {auto: {search: auto}, cobyla: {nlopt: LN_COBYLA}}\n");
+    expect(vesica(NULL, "bench s.yaml --out b"), 0, "can", NULL, "shapes");
+    cr_expect(count_of("b/runs.jsonl", "\"end\":\"budget\"") == 4);
+    root_remove();
+}
