@@ -2,7 +2,7 @@
  * Fifteen seeds, each with an instance of its own (the minimum moved, rot_: the coordinates turned); at most
  * min(1e4 d, 2e5) evaluations. ERT: evaluations of all seeds over the number of hits. Prints JSON Lines.
  *
- *     bench_restarts [d=5,10,20] [only=NAME] [seeds=15] [trace=0] [active=1] [hopeless=0.02] [tol=1e-12]
+ *     bench_restarts [d=5,10,20] [only=NAME] [seeds=15] [trace=0] [active=1] [hopeless=0.1] [tol=1e-12]
  *                    [two=0] [first=1] [growth=2] [sigma=0.3]
  *
  * first: of the default population, times; the others are fields of ves_cma_options and ves_ipop_options. */

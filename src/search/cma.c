@@ -28,7 +28,7 @@ enum { RING = VES_CMA_RING, CANDIDATES = 1 << 20 };
 
 ves_cma_options ves_cma_default(void)
 {
-    return (ves_cma_options){.active = true, .tol_x = 1e-12, .tol_fun = 1e-12, .hopeless = 0.02};
+    return (ves_cma_options){.active = true, .tol_x = 1e-12, .tol_fun = 1e-12, .hopeless = 0.1};
 }
 
 int ves_cma_population(int n)

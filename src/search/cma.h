@@ -95,7 +95,7 @@ typedef struct ves_cma {
 /* The tutorial's default, 4 + floor(3 ln n). */
 int ves_cma_population(int n);
 
-/* For n >= 1 variables and populations from 2 to most. False when out of memory. */
+/* For n >= 1 variables and populations from 2 to most <= 2^20. False when out of memory. */
 bool ves_cma_create(ves_arena *arena, int n, int most, const ves_cma_options *options, ves_cma *cma);
 
 /* Begins a run: mean [n], sigma > 0 (in parts of the box), 2 <= lambda <= most. */

@@ -5,8 +5,8 @@
 
 /* When a run is over: the tutorial's B.3, with constants as there, but that the box gives the scale of sigma. Two
  * are ours: FAILED, and HOPELESS, which leaves a lesser basin early. There a run converges linearly: what is
- * still to be gained is about what the last generations gained and still differ by, and when that is a few parts
- * in a hundred of the distance to the best of an earlier run, the rest of the run is wasted. */
+ * still to be gained is about what the last generations gained and still differ by, and when that is a tenth
+ * of the distance to the best of an earlier run, the rest of the run is wasted. */
 
 enum { RING = VES_CMA_RING, FAILURES = 10 };
 

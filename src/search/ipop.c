@@ -7,7 +7,12 @@
 
 /* BIPOP as in Hansen, "Benchmarking a BI-population CMA-ES on the BBOB-2009 function testbed", section 2:
  *     lambda_s = lambda_0 (lambda_l / (2 lambda_0))^(U^2),  sigma_s = sigma_0 10^(-2 U'),
- * at most half of the evaluations of the last large run. */
+ * at most half of the evaluations of the last large run.
+ *
+ * Defaults: of the twelve functions of bench/restarts.c in 5 and 10 variables, 30 seeds each, IPOP solved 355 and
+ * 337 of 360, BIPOP 336 and 301; growth by 1.5 355 and 328, by 3 347 and 333; steps of 0.2 349 and 337, of 0.5
+ * 356 and 343; twice the first population 355 and 348, but in 20 variables (15 seeds) 143 of 180 instead of 155.
+ */
 
 ves_ipop_options ves_ipop_default(int n)
 {
