@@ -105,3 +105,57 @@ Test(cli_bench, shapes_are_measured_against_the_best_of_all)
     cr_expect(count_of("b/runs.jsonl", "\"end\":\"budget\"") == 4);
     root_remove();
 }
+
+static int failed_with(const char *path, const char *method, const char *reason)
+{
+    char *text = slurp(path), head[64];
+    int count = 0;
+    snprintf(head, sizeof head, "\"method\":\"%s\"", method);
+    for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n"))
+        count += strstr(line, head) && strstr(line, reason);
+    free(text);
+    return count;
+}
+
+/* What programs may do wrong is recorded, and the others go on. */
+Test(cli_bench, programs_take_part_and_what_they_do_wrong_is_recorded, .timeout = 120)
+{
+    static const char *const faults[][2] = {{"none", "cannot start"},
+                                            {"talks", "said what is no request: hello"},
+                                            {"silent", "exit code 3"},
+                                            {"killed", "ended by signal 9"},
+                                            {"hangs", "said nothing for 0.3 s"},
+                                            {"gives_up", "ends without asking"},
+                                            {"outside", "beyond the unit box"},
+                                            {"three", "another number of variables"},
+                                            {"slopes", "asked for gradients"}};
+    root_make();
+    cr_assert(system("cp " VESICA_SOURCE "/bench/suites/random.py .") == 0);
+    write_file("s.yaml",
+               "vesica: 1\nsuite: programs\nproblems: [{function: sphere, n: 2}]\nseeds: 2\n"
+               "budget: {per_dimension: 100}\nmethods:\n"
+               "  random: {program: [python3, ./random.py]}\n"
+               "  none: {program: nonesuch}\n"
+               "  talks: {program: [sh, -c, \"read a; echo hello; exit 3\"]}\n"
+               "  silent: {program: [sh, -c, \"read a; exit 3\"]}\n"
+               "  killed: {program: [sh, -c, \"kill -9 $$\"]}\n"
+               "  hangs: {program: [sleep, \"60\"], seconds: 0.3}\n"
+               "  gives_up: {program: [sh, -c, \"read a; echo '{\\\"done\\\": true}'\"]}\n"
+               "  outside: {program: [sh, -c, \"read a; echo '{\\\"ask\\\": [0.5, 1.5]}'; read b\"]}\n"
+               "  three: {program: [sh, -c, \"read a; echo '{\\\"ask\\\": [0, 0.5, 1]}'; read b\"]}\n"
+               "  slopes: {gradients: false, program: [sh, -c, \"read a; echo '{\\\"ask\\\": [0, 1], "
+               "\\\"gradient\\\": true}'; read b\"]}\n"
+               "  once: {program: [sh, -c, \"read a; echo '{\\\"ask\\\": [0.5, 0.5]}'; read b; "
+               "echo '{\\\"done\\\": true}'\"]}\n");
+    expect(vesica(NULL, "bench s.yaml --out one --jobs 1"), 0, "random", NULL, "programs");
+    expect(vesica(NULL, "bench s.yaml --out two --jobs 2"), 0, "random", NULL, "programs");
+    same_file("one/runs.jsonl", "two/runs.jsonl");
+    for (size_t k = 0; k < sizeof faults / sizeof *faults; k++)
+        cr_expect(failed_with("one/runs.jsonl", faults[k][0], faults[k][1]) == 2, "%s: no \"%s\"",
+                  faults[k][0], faults[k][1]);
+    cr_expect(failed_with("one/runs.jsonl", "random", "\"end\":\"budget\",\"reason\":null") == 2);
+    cr_expect(failed_with("one/runs.jsonl", "random", "\"spent\":200,\"evaluations\":200") == 2);
+    cr_expect(failed_with("one/runs.jsonl", "once", "\"spent\":200,\"evaluations\":200") == 2,
+              "started again");
+    root_remove();
+}
