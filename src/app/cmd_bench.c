@@ -1,11 +1,8 @@
 /* vesica bench */
-#include <math.h>
 #include <string.h>
 
-#include "app/app.h"
-#include "app/table.h"
+#include "app/screen_bench.h"
 #include "problem/suite.h"
-#include "study/bench.h"
 #include "study/folder.h"
 
 typedef struct listener {
@@ -43,55 +40,6 @@ static bool stopped(void *data)
 {
     (void)data;
     return app_interrupt_asked();
-}
-
-static double reference(const ves_bench *b, int bout)
-{
-    double best = b->bout[bout].optimum;
-    for (int k = 0; isnan(b->bout[bout].optimum) && k < b->runs; k++) {
-        const ves_outcome *o = &b->outcome[k];
-        if (ves_suite_run(b->suite, k).bout != bout || !o->done || !o->any || o->violation > 1) continue;
-        if (!(best <= o->value)) best = o->value;
-    }
-    return best;
-}
-
-static void cell(app_table *t, const ves_bench *b, int entrant, int bout)
-{
-    double target = ves_suite_value(reference(b, bout), b->suite->target[VES_TARGETS - 1]), sum = 0;
-    int hits = 0, runs = 0, failed = 0;
-    for (int k = 0; k < b->runs; k++) {
-        ves_suite_place p = ves_suite_run(b->suite, k);
-        if (p.bout != bout || p.entrant != entrant || !b->outcome[k].done) continue;
-        double cost = ves_outcome_reach(&b->outcome[k], target);
-        runs++;
-        failed += b->outcome[k].failed;
-        hits += isfinite(cost);
-        sum += isfinite(cost) ? cost : b->outcome[k].spent;
-    }
-    if (failed == runs && runs)
-        app_table_cell(t, "failed");
-    else if (hits)
-        app_table_cell(t, "%d/%d %.4g", hits, runs, sum / hits);
-    else
-        app_table_cell(t, "0/%d", runs);
-}
-
-static void hits_print(app *a, const ves_bench *b)
-{
-    char *align = ves_arena_take(&a->arena, (size_t)b->suite->entrants + 2, 1);
-    if (!align) return;
-    memset(align, 'l', (size_t)b->suite->entrants + 1);
-    app_table t = {.align = align};
-    app_table_cell(&t, "problem");
-    for (int e = 0; e < b->suite->entrants; e++) app_table_cell(&t, "%s", b->suite->entrant[e].name);
-    app_table_end(&t);
-    for (int p = 0; p < b->suite->bouts; p++) {
-        app_table_cell(&t, "%s", b->suite->bout[p].name);
-        for (int e = 0; e < b->suite->entrants; e++) cell(&t, b, e, p);
-        app_table_end(&t);
-    }
-    app_table_print(&t, stdout);
 }
 
 /* --add NAME={...} is --set methods.NAME={...}. */
@@ -151,8 +99,8 @@ int app_bench(app *a)
     ves_status status = (o->folder ? resume : begin)(a, &options, &hooks, &bench);
     app_say(a);
     if (bench) {
-        hits_print(a, bench);
-        if (bench->folder) printf("%s/\n", bench->folder);
+        app_screen_bench(bench, stdout);
+        if (bench->folder) printf("  %s/\n", bench->folder);
     }
     ves_bench_destroy(bench);
     return status == VES_INTERRUPTED ? APP_INTERRUPTED : app_code(status);

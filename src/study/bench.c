@@ -9,6 +9,7 @@
 #include "problem/suite.h"
 #include "study/bench_folder.h"
 #include "study/folder.h"
+#include "study/optima.h"
 #include "study/ring.h"
 #include "study/run.h"
 
@@ -148,6 +149,23 @@ static ves_status rings_open(bench *b)
     return VES_OK;
 }
 
+/* What the runs that are done add up to. */
+static ves_status count_up(bench *b)
+{
+    ves_bench *shown = &b->shown;
+    int bouts = shown->suite->bouts, *n = ves_arena_take(&b->arena, (size_t)bouts, sizeof *n);
+    double *optimum = ves_arena_take(&b->arena, (size_t)bouts, sizeof *optimum);
+    if (!n || !optimum) return VES_MEMORY;
+    for (int k = 0; k < bouts; k++) n[k] = shown->bout[k].n, optimum[k] = shown->bout[k].optimum;
+    const ves_tally_input input = {
+        .suite = shown->suite, .outcome = shown->outcome, .optimum = optimum, .n = n};
+    if (!ves_tally_init(&input, &shown->tally)) return VES_MEMORY;
+    for (int k = 0; k < bouts; k++)
+        if (shown->suite->bout[k].kind != VES_BOUT_LANDSCAPE)
+            VES_TRY(ves_optima_find(&b->ring[k], k, shown, &b->arena));
+    return VES_OK;
+}
+
 static ves_status all_run(bench *b)
 {
     ves_status status = rings_open(b);
@@ -162,6 +180,8 @@ static ves_status all_run(bench *b)
         if (status == VES_MEMORY) ves_diag_fail(b->diag, status);
     }
     ves_pool_destroy(b->pool);
+    if ((status == VES_OK || status == VES_INTERRUPTED) && count_up(b) != VES_OK)
+        status = ves_diag_fail(b->diag, VES_MEMORY);
     for (int k = 0; b->ring && k < b->shown.suite->bouts; k++) ves_ring_close(&b->ring[k]);
     return status;
 }
@@ -195,7 +215,7 @@ static ves_status finish(bench *b, ves_status status, ves_bench **out)
     b->shown.wall = ves_study_clock() - begin;
     ves_status closed = ves_bench_files_end(&b->files);
     if (status == VES_OK) status = closed;
-    if (b->shown.bout && b->shown.done > 0)
+    if (b->shown.tally.score && b->shown.done > 0)
         *out = &b->shown;
     else
         ves_bench_destroy(&b->shown);
@@ -284,6 +304,9 @@ void ves_bench_destroy(ves_bench *shown)
     if (!shown) return;
     bench *b = (bench *)shown;
     for (int k = 0; b->shown.outcome && k < b->shown.runs; k++) ves_outcome_clear(&b->shown.outcome[k]);
+    for (int k = 0; k < b->shown.optima; k++) ves_memory_free(b->shown.optimum[k].hits);
+    ves_memory_free(b->shown.optimum);
+    ves_tally_destroy(&b->shown.tally);
     ves_suite_destroy(b->shown.suite);
     ves_arena arena = b->arena;
     ves_memory_free(b);

@@ -7,7 +7,7 @@
 #ifndef VES_STUDY_BENCH_H
 #define VES_STUDY_BENCH_H
 
-#include "suite/outcome.h"
+#include "suite/tally.h"
 #include "vesica/diag.h"
 
 typedef struct ves_bench ves_bench;
@@ -33,6 +33,13 @@ typedef struct ves_bench_bout {
     double seconds, seconds_gradient; /* of one evaluation, measured; NAN: not */
 } ves_bench_bout;
 
+/* An optimum of a problem of files or plugins: where several runs ended. */
+typedef struct ves_bench_optimum {
+    int bout, run; /* run: the best that ended there */
+    double value;
+    int *hits; /* [entrants] runs of each method that ended there */
+} ves_bench_optimum;
+
 struct ves_bench {
     ves_suite *suite;
     const char *folder;   /* NULL: none */
@@ -41,6 +48,9 @@ struct ves_bench {
     ves_outcome *outcome; /* [runs] */
     const ves_bench_bout *bout;
     double wall; /* s, of this process */
+    ves_tally tally;
+    int optima;
+    ves_bench_optimum *optimum; /* problem by problem, best first */
 };
 
 /* Takes the suite over, also when it fails. *bench is not NULL where runs were made, also after

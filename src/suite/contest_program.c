@@ -1,6 +1,6 @@
-/* A program of one's own as a method: JSON lines through its stdin and stdout (docs/benchmark.md). It is told the
- * problem, asks, is answered, and ends when it is told {"done": ...}. When it has done before that, it is started
- * again, from another random point. */
+/* A program of one's own as a method: JSON lines through its stdin and stdout (docs/benchmark.md). It is told
+ * the problem, asks, is answered, and ends when it is told {"done": ...}. When it has done before that, it is
+ * started again, from another random point. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -29,8 +29,8 @@ ves_line_end ves_line_read(ves_line *line, double seconds, bool (*stopped)(void 
 /* False: the program does not listen any more. */
 bool ves_line_write(ves_line *line, const char *text, size_t length);
 
-/* Waits a moment for its end, then kills it with all that it has started. Returns its exit code, or minus the signal
- * that ended it. */
+/* Waits a moment for its end, then kills it with all that it has started. Returns its exit code, or minus the
+ * signal that ended it. */
 int ves_line_close(ves_line *line, double seconds);
 
 /* What a program may say: {"ask": [u, ...], "gradient": true} or {"done": true}. */

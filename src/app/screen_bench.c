@@ -1,0 +1,297 @@
+/* What vesica bench prints: docs/benchmark.md says how to read it. */
+#include "app/screen_bench.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "app/table.h"
+
+enum { COLUMNS = 6, CELL = 96 };
+
+static const char *number(double value, char text[32])
+{
+    if (isnan(value))
+        text[0] = 0;
+    else if (isinf(value))
+        snprintf(text, 32, "-");
+    else if (fabs(value) >= 1e5)
+        snprintf(text, 32, "%.3gM", value / 1e6);
+    else if (fabs(value) >= 1e3)
+        snprintf(text, 32, "%.3gk", value / 1e3);
+    else
+        snprintf(text, 32, "%.3g", value);
+    return text;
+}
+
+static const char *seconds(double value, char text[32])
+{
+    if (!isfinite(value)) return number(value, text);
+    return app_screen_time(value, text);
+}
+
+/* [low, high] */
+static void interval_cell(app_table *t, ves_interval i, const char *(*show)(double, char *))
+{
+    char low[32], high[32];
+    if (isfinite(i.value))
+        app_table_cell(t, "[%s, %s]", show(i.low, low), show(i.high, high));
+    else
+        app_table_cell(t, "%s", "");
+}
+
+static const ves_score *score_of(const ves_bench *b, int entrant, int bout)
+{
+    return &b->tally.score[entrant * b->suite->bouts + bout];
+}
+
+static void heading(const ves_bench *b, FILE *out)
+{
+    const ves_suite *s = b->suite;
+    char budget[32], most[32], runs[32];
+    fprintf(out, "%s\n\n", s->title);
+    fprintf(out, "  %d problems, %d methods, %d runs of each (%s of %d done), vesica %s, %d %s\n", s->bouts,
+            s->entrants, s->seeds, app_screen_thousands(b->done, runs), b->runs, VESICA_VERSION, b->jobs,
+            b->jobs == 1 ? "job" : "jobs");
+    fprintf(out, "  budget: %s for each variable, at most %s; a value costs %g, with gradients %g\n",
+            number(s->per_dimension, budget), number(s->most, most), s->cost, s->cost_gradient);
+    fprintf(
+        out,
+        "  targets: the reference + gap max(1, |reference|), gaps %g, %g, %g; feasible: violated by no more ",
+        s->target[0], s->target[1], s->target[2]);
+    fprintf(out, "than %g (<=), %g (==)\n\n", s->inequality, s->equality);
+}
+
+static void references(const ves_bench *b, FILE *out)
+{
+    const ves_suite *s = b->suite;
+    app_table t = {.align = "lrrrll"};
+    for (const char *const *w = (const char *const[]){"problem", "n", "constraints", "reference", "from",
+                                                      "value, with gradients", NULL};
+         *w; w++)
+        app_table_cell(&t, "%s", *w);
+    for (int p = 0; p < s->bouts; p++) {
+        const ves_bench_bout *f = &b->bout[p];
+        const ves_reference *r = &b->tally.reference[p];
+        char a[32], c[32];
+        app_table_cell(&t, "%s", s->bout[p].name);
+        app_table_cell(&t, "%d", f->n);
+        app_table_cell(&t, f->equalities ? "%d, %d ==" : f->m ? "%d" : "", f->m, f->equalities);
+        app_table_number(&t, r->value);
+        if (r->known)
+            app_table_cell(&t, "known");
+        else if (isnan(r->value))
+            app_table_cell(&t, "no feasible value was found");
+        else
+            app_table_cell(&t, "best of all runs: %s, run %d", s->entrant[r->entrant].name, r->seed);
+        app_table_cell(&t, "%s%s%s", seconds(f->seconds, a), f->gradients ? ", " : "",
+                       f->gradients ? seconds(f->seconds_gradient, c) : "");
+    }
+    app_table_print(&t, out);
+    fputc('\n', out);
+}
+
+/* 13/15 1.2k: hits at the last target and its ERT. */
+static void matrix(const ves_bench *b, FILE *out)
+{
+    const ves_suite *s = b->suite;
+    int last = VES_TARGETS - 1;
+    fprintf(out, "  runs that met the last target, and the expected cost of meeting it (ERT)\n\n");
+    for (int first = 0; first < s->entrants; first += COLUMNS) {
+        int end = first + COLUMNS < s->entrants ? first + COLUMNS : s->entrants;
+        char align[COLUMNS + 2] = "l", text[32];
+        memset(align + 1, 'l', (size_t)(end - first));
+        app_table t = {.align = align};
+        app_table_cell(&t, "problem");
+        for (int e = first; e < end; e++) app_table_cell(&t, "%s", s->entrant[e].name);
+        for (int p = 0; p < s->bouts; p++) {
+            app_table_cell(&t, "%s", s->bout[p].name);
+            for (int e = first; e < end; e++) {
+                const ves_score *c = score_of(b, e, p);
+                if (c->runs && c->failed == c->runs)
+                    app_table_cell(&t, "failed");
+                else
+                    app_table_cell(&t, "%d/%d %s", c->hits[last], c->runs, number(c->ert[last].value, text));
+            }
+        }
+        app_table_print(&t, out);
+        fputc('\n', out);
+    }
+}
+
+static void totals(const ves_bench *b, FILE *out)
+{
+    const ves_suite *s = b->suite;
+    app_table t = {.align = "lrlrlrlrrl"};
+    char text[32];
+    app_table_cell(&t, "all problems");
+    for (int k = 0; k < VES_TARGETS; k++) {
+        app_table_cell(&t, "%g", s->target[k]);
+        app_table_cell(&t, "95 %%");
+    }
+    app_table_cell(&t, "feasible");
+    app_table_cell(&t, "failed");
+    app_table_cell(&t, "own time");
+    for (int e = 0; e < s->entrants; e++) {
+        const ves_total *c = &b->tally.total[e];
+        app_table_cell(&t, "%s", s->entrant[e].name);
+        for (int k = 0; k < VES_TARGETS; k++) {
+            app_table_cell(&t, "%.1f %%", 100 * c->share[k].value);
+            app_table_cell(&t, "[%.0f, %.0f]", 100 * c->share[k].low, 100 * c->share[k].high);
+        }
+        app_table_cell(&t, "%.0f %%", c->runs ? 100.0 * c->feasible / c->runs : NAN);
+        app_table_cell(&t, "%d", c->failed);
+        app_table_cell(&t, "%s", seconds(c->own, text));
+    }
+    app_table_print(&t, out);
+    fprintf(out, "\n  failed: runs that the method could not end; own time: outside the problem, for each "
+                 "evaluation\n\n");
+}
+
+static void score_row(app_table *t, const ves_bench *b, int entrant, int bout)
+{
+    const ves_score *c = score_of(b, entrant, bout);
+    int last = VES_TARGETS - 1;
+    char hits[CELL] = "", text[32], other[32];
+    for (int k = 0; k < VES_TARGETS; k++)
+        snprintf(hits + strlen(hits), sizeof hits - strlen(hits), "%s%d", k ? "/" : "", c->hits[k]);
+    app_table_cell(t, "%s", b->suite->entrant[entrant].name);
+    app_table_cell(t, "%s of %d", hits, c->runs);
+    app_table_cell(t, "[%.0f, %.0f] %%", 100 * c->share[last].low, 100 * c->share[last].high);
+    app_table_cell(t, "%s", number(c->ert[last].value, text));
+    interval_cell(t, c->ert[last], number);
+    app_table_cell(t, "%s", seconds(c->seconds.value, text));
+    app_table_cell(t, isfinite(c->quartile[1]) ? "%.7g" : "-", c->quartile[1]);
+    app_table_cell(t, isfinite(c->best) ? "%.7g" : "-", c->best);
+    app_table_cell(t, "%d", c->feasible);
+    app_table_cell(t, "%s", b->bout[bout].m ? number(c->worst, text) : "");
+    app_table_cell(t, "%s", seconds(c->own, other));
+}
+
+static void details(const ves_bench *b, FILE *out)
+{
+    static const char *const head[] = {"hits",   "last, 95 %", "ERT",      "95 %",  "seconds",
+                                       "median", "best",       "feasible", "worst", "own time"};
+    const ves_suite *s = b->suite;
+    for (int p = 0; p < s->bouts; p++) {
+        app_table t = {.align = "lllrlrrrrrr"};
+        app_table_cell(&t, "%s", s->bout[p].name);
+        for (size_t k = 0; k < sizeof head / sizeof *head; k++) app_table_cell(&t, "%s", head[k]);
+        for (int e = 0; e < s->entrants; e++) score_row(&t, b, e, p);
+        app_table_print(&t, out);
+        for (int e = 0; e < s->entrants; e++) {
+            const ves_score *c = score_of(b, e, p);
+            if (c->reason)
+                fprintf(out, "    %s %s %d of %d: %s\n", s->entrant[e].name, c->failed ? "failed" : "notes",
+                        c->failed, c->runs, c->reason);
+        }
+        fputc('\n', out);
+    }
+    fprintf(out,
+            "  hits: runs that met each of the three targets; median, best: of the final feasible values;\n"
+            "  worst: the largest final violation in units of what is allowed\n\n");
+}
+
+static void pair_cell(app_table *t, const ves_pair *pair)
+{
+    if (isnan(pair->effect))
+        app_table_cell(t, "%s", "");
+    else if (!(pair->p < 0.05))
+        app_table_cell(t, "%.2f no difference shown", pair->effect);
+    else if (pair->p < 1e-4)
+        app_table_cell(t, "%.2f p < 1e-4", pair->effect);
+    else
+        app_table_cell(t, "%.2f p = %.2g", pair->effect, pair->p);
+}
+
+static void pairs(const ves_bench *b, FILE *out)
+{
+    const ves_suite *s = b->suite;
+    if (s->entrants < 2) return;
+    fprintf(
+        out,
+        "  chance that a run of the method on the left does better (A12), and p of Wilcoxon's signed ranks,\n"
+        "  paired by problem and run, corrected for all pairs (Holm)\n\n");
+    for (int first = 0; first < s->entrants; first += COLUMNS - 2) {
+        int end = first + COLUMNS - 2 < s->entrants ? first + COLUMNS - 2 : s->entrants;
+        char align[COLUMNS + 2] = "l";
+        memset(align + 1, 'l', (size_t)(end - first));
+        app_table t = {.align = align};
+        app_table_cell(&t, "%s", "");
+        for (int e = first; e < end; e++) app_table_cell(&t, "%s", s->entrant[e].name);
+        for (int i = 0; i < s->entrants; i++) {
+            app_table_cell(&t, "%s", s->entrant[i].name);
+            for (int j = first; j < end; j++)
+                if (i == j)
+                    app_table_cell(&t, "%s", "");
+                else
+                    pair_cell(&t, &b->tally.pair[i * s->entrants + j]);
+        }
+        app_table_print(&t, out);
+        fputc('\n', out);
+    }
+}
+
+static void optima(const ves_bench *b, FILE *out)
+{
+    const ves_suite *s = b->suite;
+    for (int k = 0; k < b->optima; k++) {
+        const ves_bench_optimum *o = &b->optimum[k];
+        bool first = !k || b->optimum[k - 1].bout != o->bout;
+        const char *gap = "";
+        ves_suite_place place = ves_suite_run(s, o->run);
+        if (first) fprintf(out, "  optima of %s\n", s->bout[o->bout].name);
+        fprintf(out, "    %.9g   first by %s, run %d; ", o->value, s->entrant[place.entrant].name,
+                place.seed);
+        for (int e = 0; e < s->entrants; e++) {
+            if (!o->hits[e]) continue;
+            fprintf(out, "%s%s %d times", gap, s->entrant[e].name, o->hits[e]);
+            gap = ", ";
+        }
+        fputc('\n', out);
+    }
+    if (b->optima) fputc('\n', out);
+}
+
+/* The best share at the last target; then whom it is not shown to differ from. */
+static void verdict(const ves_bench *b, FILE *out)
+{
+    const ves_suite *s = b->suite;
+    int best = 0, last = VES_TARGETS - 1;
+    char budget[32], most[32];
+    for (int e = 1; e < s->entrants; e++) {
+        const ves_pair *pair = &b->tally.pair[e * s->entrants + best];
+        int more = b->tally.total[e].hits[last] - b->tally.total[best].hits[last];
+        if (more > 0 || (more == 0 && pair->effect > 0.5)) best = e;
+    }
+    const ves_total *t = &b->tally.total[best];
+    fprintf(out, "Within %s cost units for each variable, at most %s, ", number(s->per_dimension, budget),
+            number(s->most, most));
+    if (!t->hits[last]) {
+        fprintf(out, "no method met the last target.\n");
+        return;
+    }
+    fprintf(out, "%s met the last target most often: %.1f %% of %d runs", s->entrant[best].name,
+            100 * t->share[last].value, t->runs);
+    for (int e = 0; e < s->entrants; e++) {
+        const ves_pair *pair = &b->tally.pair[best * s->entrants + e];
+        if (e == best || isnan(pair->p)) continue;
+        if (!(pair->p < 0.05))
+            fprintf(out, "; no difference is shown from %s", s->entrant[e].name);
+        else if (b->tally.total[e].hits[last] == t->hits[last])
+            fprintf(out, "; so did %s, %s", s->entrant[e].name,
+                    pair->effect > 0.5 ? "at a higher cost" : "cheaper");
+    }
+    fprintf(out, ".\n");
+}
+
+void app_screen_bench(const ves_bench *bench, FILE *out)
+{
+    heading(bench, out);
+    references(bench, out);
+    details(bench, out);
+    optima(bench, out);
+    matrix(bench, out);
+    totals(bench, out);
+    pairs(bench, out);
+    verdict(bench, out);
+}

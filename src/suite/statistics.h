@@ -1,0 +1,44 @@
+/* Statistics of runs: pure functions. Less is better; INFINITY is a run that never got there. */
+#ifndef VES_SUITE_STATISTICS_H
+#define VES_SUITE_STATISTICS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct ves_interval {
+    double value, low, high; /* 95 % */
+} ves_interval;
+
+/* Share of hits among n runs, with the interval of [Wilson 1927]. n 0: NAN. */
+ves_interval ves_statistics_share(int hits, int n);
+
+/* Expected running time, sum of spent over hits [Hansen et al., COCO; Price 1997]: of each run what it spent
+ * until it hit or, hit[k] false, until it ended. INFINITY without a hit. The interval: 2.5 and 97.5 % of 1000
+ * bootstrap samples of the runs (drawn by counters from the seed; a sample without a hit is INFINITY). */
+ves_interval ves_statistics_ert(const double *spent, const bool *hit, int n, uint64_t seed);
+
+/* Sorts ascending; NAN last. */
+void ves_statistics_sort(double *x, int n);
+
+/* Of ascending x, between the two nearest by parts (Hyndman and Fan 1996, type 7); next to INFINITY:
+ * INFINITY. */
+double ves_statistics_quantile(const double *x, int n, double p);
+
+/* Chance that a run of x is less than one of y, ties half: the effect size A12 [Vargha and Delaney 2000] */
+double ves_statistics_effect(const double *x, int nx, const double *y, int ny);
+
+/* Two-sided p of [Mann and Whitney 1947], unpaired: exact (all choices of nx of the midranks) up to 60 runs,
+ * else by the normal distribution with ties and continuity corrected. */
+double ves_statistics_unpaired(const double *x, int nx, const double *y, int ny);
+
+/* Two-sided p of [Wilcoxon 1945], paired: differences that are 0 say nothing; exact (all signs of the
+ * midranks) up to 600 pairs. x[k] and y[k] may both be INFINITY: no difference. */
+double ves_statistics_paired(const double *x, const double *y, int n);
+
+/* Step-down correction of count tests at once [Holm 1979], in place; NAN (no test) is left out. */
+void ves_statistics_holm(double *p, int count);
+
+/* Share of x up to t: of ascending x. */
+double ves_statistics_ecdf(const double *x, int n, double t);
+
+#endif

@@ -1,0 +1,72 @@
+/* Tally: what the runs of a suite add up to. */
+#ifndef VES_SUITE_TALLY_H
+#define VES_SUITE_TALLY_H
+
+#include "suite/outcome.h"
+#include "suite/statistics.h"
+
+/* The runs, and what is known of the problems. */
+typedef struct ves_tally_input {
+    const ves_suite *suite;
+    const ves_outcome *outcome; /* [ves_suite_runs]; those that are not done are left out */
+    const double *optimum;      /* [bouts]; NAN: not known */
+    const int *n;               /* [bouts] variables */
+} ves_tally_input;
+
+/* What gaps are measured from. */
+typedef struct ves_reference {
+    double value;      /* NAN: no run was feasible */
+    bool known;        /* else the best of all runs: */
+    int entrant, seed; /* by whom */
+} ves_reference;
+
+/* One method on one problem. */
+typedef struct ves_score {
+    int runs, failed;
+    const char *reason; /* of the first that failed; or of a run that did not, what was odd; NULL */
+    int hits[VES_TARGETS];
+    ves_interval share[VES_TARGETS], ert[VES_TARGETS]; /* ert in cost units */
+    ves_interval seconds;     /* the ert of the last target, with the wall time of each run in proportion */
+    double quartile[3], best; /* of the final feasible values; INFINITY: infeasible */
+    int feasible;
+    double worst; /* largest final violation, in units of what is allowed; NAN: none measured */
+    double own;   /* s outside the problem, for each evaluation; NAN: not known */
+} ves_score;
+
+/* One method on all problems. */
+typedef struct ves_total {
+    int runs, failed, feasible;
+    int hits[VES_TARGETS];
+    ves_interval share[VES_TARGETS];
+    double own;
+} ves_total;
+
+/* Two methods on all problems: paired by problem and run. */
+typedef struct ves_pair {
+    double
+        effect; /* chance that a run of the first is better, the mean over the problems; NAN: none in common */
+    double p;   /* that there is no difference; corrected for all pairs */
+    int pairs;  /* runs that differ */
+} ves_pair;
+
+typedef struct ves_tally {
+    ves_arena arena;
+    const ves_suite *suite;
+    ves_reference *reference; /* [bouts] */
+    ves_score *score;         /* [entrants][bouts] */
+    ves_total *total;         /* [entrants] */
+    ves_pair *pair;           /* [entrants][entrants]; first against second */
+} ves_tally;
+
+/* False: out of memory. */
+bool ves_tally_init(const ves_tally_input *input, ves_tally *tally);
+void ves_tally_destroy(ves_tally *tally);
+
+/* How dear a run was, for comparisons: the mean over the targets of log10 of the cost until each was met; one
+ * that was not counts ten budgets. */
+double ves_tally_dearness(const ves_suite *suite, const ves_outcome *outcome, double reference);
+
+/* The value of a run that counts: feasible, at its end. INFINITY: none. */
+double ves_tally_value(const ves_outcome *outcome);
+
+#endif
