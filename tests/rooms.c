@@ -78,7 +78,7 @@ static const arrow DOORS[] = {
     {"dlfcn.h", "app"},
     {"threads.h", "base"},
     {"stdatomic.h", "base search"},
-    {"signal.h", "app"},
+    {"signal.h", "app suite"},
     {"omp.h", ""},
     {"assert.h", ""},
     {"setjmp.h", ""},

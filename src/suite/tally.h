@@ -43,10 +43,9 @@ typedef struct ves_total {
 
 /* Two methods on all problems: paired by problem and run. */
 typedef struct ves_pair {
-    double
-        effect; /* chance that a run of the first is better, the mean over the problems; NAN: none in common */
-    double p;   /* that there is no difference; corrected for all pairs */
-    int pairs;  /* runs that differ */
+    double effect; /* chance that a run of the first is better: the mean over the problems; NAN: none */
+    double p;      /* that there is no difference; corrected for all pairs */
+    int pairs;     /* runs that differ */
 } ves_pair;
 
 typedef struct ves_tally {
