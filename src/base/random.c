@@ -49,3 +49,32 @@ void ves_random_normals(ves_random *random, int n, double *z)
         if (i + 1 < n) z[i + 1] = r * sin(angle);
     }
 }
+
+void ves_random_uniforms(ves_random *random, int n, double *u)
+{
+    uint32_t word[4];
+    for (int i = 0; i < n; i += 2) {
+        ves_random_words(random->seed, random->chain, random->step, random->draw++, word);
+        u[i] = unit(word[0], word[1]);
+        if (i + 1 < n) u[i + 1] = unit(word[2], word[3]);
+    }
+}
+
+void ves_random_pair(ves_random *random, double u[2])
+{
+    ves_random_uniforms(random, 2, u);
+}
+
+void ves_random_four(ves_random *random, double u[4])
+{
+    uint32_t word[4];
+    ves_random_words(random->seed, random->chain, random->step, random->draw++, word);
+    for (int k = 0; k < 4; k++) u[k] = (word[k] + 0.5) * 0x1p-32;
+}
+
+void ves_random_turn(double *a, double *b)
+{
+    double radius = sqrt(-2 * log(*a)), angle = VES_TWO_PI * *b;
+    *a = radius * cos(angle);
+    *b = radius * sin(angle);
+}

@@ -23,4 +23,12 @@ int ves_random_below(ves_random *random, int n);
 /* n normal numbers at half the price: each draw makes two. */
 void ves_random_normals(ves_random *random, int n, double *z);
 
+/* Uniform numbers likewise; four of 32 bits by one draw. */
+void ves_random_uniforms(ves_random *random, int n, double *u);
+void ves_random_pair(ves_random *random, double u[2]);
+void ves_random_four(ves_random *random, double u[4]);
+
+/* Box and Muller: two normal numbers in the place of two uniform ones. */
+void ves_random_turn(double *a, double *b);
+
 #endif
