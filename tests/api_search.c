@@ -49,5 +49,16 @@ Test(api_search, a_callback_is_minimised_and_its_journal_read)
     cr_assert_eq(ves_search_run(&problem, &options, &hooks, &result), VES_OK);
     cr_expect(result->feasible && fabs(result->value + 2) < 1e-6, "%.12g", result->value);
     cr_expect(t.blocks > 2 && t.records == result->evaluations && t.slopes == result->gradients);
+    cr_expect(result->annealings == 1 && result->annealing[0].moves > 0);
     ves_search_result_destroy(result);
+}
+
+/* What may be written in the slots of an annealing can be listed, and written. */
+Test(api_search, choices)
+{
+    ves_choice choice;
+    int slots = 0, words = 0;
+    for (; slots <= VES_SLOT_PRESET; slots++)
+        for (int k = 0; ves_search_choice((ves_slot)slots, k, &choice); k++) words += choice.about != NULL;
+    cr_expect(words > 20);
 }

@@ -377,9 +377,14 @@ static void check_header(house *h, const source *s)
 static const struct shelf {
     const char *folder, *symbol, *end;
 } SHELVES[] = {
-    {"src/curve/source/", " ves_curve_", "_op = {"},    {"src/curve/move/", " ves_curve_", "_op = {"},
-    {"src/measure/list/", " ves_measure_", " = {"},     {"src/output/format/", " ves_format_", " = {"},
-    {"src/search/proposal/", " ves_proposal_", " = {"}, {"src/search/schedule/", " ves_schedule_", " = {"},
+    {"src/curve/source/", " ves_curve_", "_op = {"},
+    {"src/curve/move/", " ves_curve_", "_op = {"},
+    {"src/measure/list/", " ves_measure_", " = {"},
+    {"src/output/format/", " ves_format_", " = {"},
+    {"src/search/proposal/", " ves_proposal_", " = {"},
+    {"src/search/schedule/", " ves_schedule_", " = {"},
+    {"src/search/population/", " ves_population_", " = {"},
+    {"src/search/constraint/", " ves_constraint_", " = {"},
     {"src/suite/landscape/", " ves_landscape_", " = {"},
 };
 

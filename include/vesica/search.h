@@ -50,19 +50,41 @@ typedef struct ves_search_problem {
     ves_status (*same)(void *data, const double *a, const double *b, bool *same);
 } ves_search_problem;
 
-/* The annealer of [Ugail 2011, 7.3-7.4]: Metropolis acceptance (7.4.1), exponential schedule c_m = c_0
- * e^{(s-1) m} (7.3), crude or exact penalty. 0 (false) is the default of everything: = {0} is a whole
- * annealing. */
+/* The annealer: one Metropolis loop [Ugail 2011, 7.3-7.4] and five slots, each filled by the name of a choice that
+ * ves_search_choice tells. 0 (NULL, false) is the default of everything: = {0} is a whole annealing. docs/search.md
+ * says what each choice is for. */
 typedef struct ves_anneal {
-    long evaluations; /* budget of the stage, all chains and proofs; 0: from the number of variables */
-    int chains;       /* independent chains, 0: 4; never depends on the number of threads */
-    double c0;        /* first temperature; 0: measured so that uphill moves are accepted at first */
+    const char
+        *as; /* words for all slots that are not given: book = the book's loop, exactly. NULL: the defaults */
+    const char *proposal;    /* NULL: mixture; with `fixed`: fixed */
+    const char *schedule;    /* NULL: budget; with s: book */
+    const char *population;  /* NULL: chains */
+    const char *constraints; /* NULL: lagrangian */
+    const char *polish;      /* when descents are made from where the chains are; NULL: none */
+    long
+        evaluations; /* budget of the stage: all chains, descents and proofs; 0: from the number of variables */
+    int chains;      /* of the population, 0: as many as it says; never depends on the number of threads */
+    double c0;       /* first temperature; 0: measured so that uphill moves are accepted at first */
     double s;     /* schedule (7.3), 0 < s < 1; 0: so that the temperature falls to c_end within the budget */
     double c_end; /* frozen at c_end * c0; 0: 1e-4 */
     double step;  /* first step width as a fraction of each range; 0: 0.1 */
-    bool fixed; /* one step width, as in the book; false: widths follow the acceptance (Corana et al. 1987) */
-    double weight; /* penalty per unit of violation; 0: from the data, grown while the best is infeasible */
+    bool fixed;   /* widths do not follow the acceptance, covariances are not learnt */
+    double weight; /* of f per unit of violation; 0: from the data, grown while the best is infeasible */
 } ves_anneal;
+
+/* What may be written in a slot, and the words of `as`. False: there are no more. */
+typedef enum ves_slot {
+    VES_SLOT_PROPOSAL,
+    VES_SLOT_SCHEDULE,
+    VES_SLOT_POPULATION,
+    VES_SLOT_CONSTRAINTS,
+    VES_SLOT_POLISH,
+    VES_SLOT_PRESET
+} ves_slot;
+typedef struct ves_choice {
+    const char *name, *about;
+} ves_choice;
+bool ves_search_choice(ves_slot slot, int index, ves_choice *choice);
 
 /* NLopt local search on scaled quantities: variables in [0, 1], objective over its largest slope,
  * constraints over theirs. 0 (NULL, false) is the default of everything. */
@@ -168,13 +190,50 @@ typedef struct ves_optimum {
     bool saddle; /* the second-order check found a direction of negative curvature that could not be left */
 } ves_optimum;
 
-/* One temperature of one annealing stage, all chains together. */
-typedef struct ves_temperature {
-    int stage;
-    double c; /* temperature */
+enum { VES_MOVES = 4 }; /* proposals that a mixture may have */
+
+/* The trials of one proposal. width: of its typical step along one coordinate, as a fraction of the range, the mean of
+ * the chains; 0: it has none. */
+typedef struct ves_move_count {
     long trials, accepted;
-    double mean, variance; /* of the energy */
+    double width;
+} ves_move_count;
+
+/* One temperature of one annealing: all chains together or, of replicas, the coldest. */
+typedef struct ves_temperature {
+    int stage, annealing, leg; /* annealing: its place among the reports; a leg goes from hot to cold */
+    double c;                  /* temperature */
+    long trials, accepted;
+    double mean, variance; /* of the energy, which is the value where there are no constraints */
+    ves_move_count move[VES_MOVES];
 } ves_temperature;
+
+/* What an annealing says of itself. */
+typedef enum ves_health {
+    VES_HEALTH_FROZEN,  /* cooled to the end, and the chains agree */
+    VES_HEALTH_UNEVEN,  /* cooled to the end, but not in equilibrium: chains froze at different values */
+    VES_HEALTH_SHORT,   /* the budget was too short to reach the last temperature */
+    VES_HEALTH_SAMPLED, /* it did not cool */
+    VES_HEALTH_STOPPED  /* it was not allowed to go on */
+} ves_health;
+
+typedef struct ves_annealing_report {
+    int stage;
+    const char *proposal, *schedule, *population, *constraints, *polish;
+    int chains, legs, moves;
+    const char *move[VES_MOVES];     /* [moves] names */
+    ves_move_count count[VES_MOVES]; /* [moves] of all chains, all temperatures */
+    double c0, c;                    /* first and last temperature */
+    double
+        freezing; /* of the last leg: below it the mean energy fell by less than a hundredth of its whole fall */
+    double peak;         /* of the last leg: where the heat capacity, variance / c^2, was largest */
+    long swaps, swapped; /* exchanges of replicas: tried, done */
+    double least_swap;   /* of the pair that exchanged least: done / tried; NAN: no replicas */
+    double apart; /* of the chains in the end: how far their mean energies are apart, as a part of the fall
+                            of the mean energy in the last leg; NAN: one chain, or replicas */
+    ves_health health;
+    const char *sentence;
+} ves_annealing_report;
 
 /* Why a search ended. */
 typedef enum ves_ending {
@@ -204,6 +263,8 @@ typedef struct ves_search_result {
     const ves_optimum *optimum; /* best first */
     int temperatures;
     const ves_temperature *temperature;
+    int annealings;
+    const ves_annealing_report *annealing;
     long failed;  /* candidates without a value */
     long refused; /* accepted bests refused by VES_WANT_PROOF */
 } ves_search_result;

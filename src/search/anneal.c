@@ -1,251 +1,45 @@
+#include "search/anneal.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "search/chain.h"
-#include "search/schedule/schedule.h"
+/* One annealing: a population of chains that meet at the end of each round. All that is asked for is asked in rounds
+ * and by proofs and descents between them; which chain does what depends on counters alone. */
 
-/* One annealing stage: a population of independent chains that meet at the end of each temperature. */
+enum { LEAST_DRAWS = 32, QUIET = 5, LONGEST = 1000 /* trials of a round */ };
 
-enum { LEAST_DRAWS = 32, QUIET = 5 };
-
-typedef struct anneal {
-    ves_session *session;
-    const ves_anneal *options;
-    const ves_schedule *schedule;
-    ves_cooling cooling;
-    long budget, before; /* session->evaluations when the stage began */
-    int chains;
-    ves_chain *chain;
-    int draws;                 /* of each chain in the warm-up */
-    double *value, *violation; /* [chains][draws]; NAN: not measured */
-    double c;
-    int quiet;         /* temperatures without an acceptance */
-    double proved;     /* temperature of the last round of proofs */
-    long proofs;       /* that may still be asked for */
-    ves_asker **asker; /* [chains] theirs */
-    ves_point **best;
-    bool *refused;
-} anneal;
-
-static bool create(anneal *a)
+static bool arrays_take(ves_annealing *a)
 {
     ves_arena *arena = &a->session->arena;
-    size_t chains = (size_t)a->chains, draws = (size_t)a->draws;
+    size_t chains = (size_t)a->chains, draws = chains * (size_t)a->draws, m = (size_t)a->session->m;
     a->chain = ves_arena_take(arena, chains, sizeof *a->chain);
-    a->value = ves_arena_take(arena, chains * draws, sizeof(double));
-    a->violation = ves_arena_take(arena, chains * draws, sizeof(double));
     a->asker = ves_arena_take(arena, chains, sizeof *a->asker);
+    a->c = ves_arena_take(arena, chains, sizeof *a->c);
+    a->swaps = ves_arena_take(arena, chains, sizeof *a->swaps);
     a->best = ves_arena_take(arena, chains, sizeof *a->best);
     a->refused = ves_arena_take(arena, chains, sizeof *a->refused);
-    if (!a->chain || !a->value || !a->violation || !a->asker || !a->best || !a->refused) return false;
+    a->ends = ves_arena_take(arena, chains, sizeof *a->ends);
+    a->value = ves_arena_take(arena, draws, sizeof(double));
+    a->violation = ves_arena_take(arena, draws, sizeof(double));
+    a->constraint = ves_arena_take(arena, draws * m, sizeof(double));
+    a->champion = ves_session_ends(a->session, a->chains);
+    return a->chain && a->asker && a->c && a->swaps && a->best && a->refused && a->ends && a->value &&
+           a->violation && a->constraint && a->champion;
+}
+
+static bool chains_create(ves_annealing *a, uint32_t stream)
+{
+    const ves_chain_make make = {.proposal = ves_slots_proposal(a->options.proposal),
+                                 .constraint = ves_slots_constraint(a->options.constraints),
+                                 .step = a->options.step,
+                                 .stream = stream << 16,
+                                 .cut = !a->options.fixed && !a->options.as};
     for (int k = 0; k < a->chains; k++) {
-        if (!ves_chain_init(&a->chain[k], a->session, k, a->options)) return false;
+        if (!ves_chain_init(&a->chain[k], a->session, k, &make)) return false;
         a->asker[k] = &a->chain[k].asker;
     }
+    a->random = (ves_random){.seed = a->session->seed, .chain = make.stream | 0xffff};
     return true;
-}
-
-static void explore(void *data, int worker, int index)
-{
-    anneal *a = data;
-    ves_chain *chain = &a->chain[index];
-    chain->asker.worker = worker;
-    for (int d = 0; d < a->draws; d++) {
-        ves_status status = ves_chain_explore(chain, &a->session->end[0].point);
-        const ves_verdict *verdict = &chain->candidate.verdict;
-        bool measured = status == VES_OK && verdict->status == VES_OK;
-        a->value[index * a->draws + d] = measured ? verdict->value : NAN;
-        a->violation[index * a->draws + d] = measured ? verdict->violation : NAN;
-    }
-}
-
-/* Sorts, leaving out what is not a number; returns how many are left. */
-static int sorted(double *value, int count)
-{
-    int kept = 0;
-    for (int k = 0; k < count; k++) {
-        double v = value[k];
-        if (isnan(v)) continue;
-        int j = kept++;
-        for (; j && value[j - 1] > v; j--) value[j] = value[j - 1];
-        value[j] = v;
-    }
-    return kept;
-}
-
-/* The spread below the median, as a standard deviation of a normal: the half that a minimiser will live in,
- * and deaf to the long upper tail of extreme shapes. */
-static double spread(double *value, int count)
-{
-    int kept = sorted(value, count);
-    if (!kept) return 0;
-    double width = (value[kept / 2] - value[kept / 4]) / 0.6745;
-    return width > 0 ? width : (value[kept - 1] - value[0]) / 4;
-}
-
-static double median_violation(double *violation, int count, double tolerance)
-{
-    int kept = sorted(violation, count), first = 0;
-    while (first < kept && violation[first] <= tolerance) first++;
-    return first < kept ? violation[first + (kept - first) / 2] : 0;
-}
-
-static void place(anneal *a, double weight, double margin)
-{
-    const ves_session *session = a->session;
-    for (int k = 0; k < a->chains; k++) {
-        ves_chain *chain = &a->chain[k];
-        chain->weight = weight;
-        chain->margin = margin;
-        chain->heaviest = a->options->weight == 0 ? 1e8 * weight : weight;
-        bool taken = session->ends > 1 || k == 0 || chain->best.verdict.status != VES_OK;
-        ves_chain_place(chain, taken ? &session->end[k % session->ends].point : NULL);
-    }
-}
-
-/* First temperature and penalty from the data. A step of a tenth of the box changes f by some tenths of its
- * spread over the box: at a first temperature of 0.3 spreads most uphill steps are accepted. A violation as
- * large as the middle one costs two spreads. */
-static ves_status warm(anneal *a)
-{
-    ves_session *session = a->session;
-    const ves_anneal *options = a->options;
-    bool needed = options->c0 == 0 || (session->m && options->weight == 0);
-    int count = needed ? a->chains * a->draws : 0;
-    if (needed) VES_TRY(ves_session_round(session, a->asker, a->chains, explore, a));
-    double width = spread(a->value, count);
-    double typical = median_violation(a->violation, count, session->tolerance);
-    if (!(width > 0)) width = fmax(1e-3 * fabs(session->end[0].point.verdict.value), 1e-12);
-    double weight =
-        options->weight > 0 ? options->weight : 2 * width / (typical > 0 ? typical : session->usual);
-    double c0 = options->c0 > 0 ? options->c0 : 0.3 * width;
-    session->spread = width;
-    for (int j = 0; j < session->m; j++) session->price[j] = fmax(session->price[j], weight);
-    place(a, weight, width);
-    long left = a->budget - (session->evaluations - a->before) - a->proofs;
-    a->schedule->init(options, c0, session->n, left / a->chains, &a->cooling);
-    return VES_OK;
-}
-
-static void cool(void *data, int worker, int index)
-{
-    anneal *a = data;
-    ves_chain *chain = &a->chain[index];
-    chain->asker.worker = worker;
-    for (long k = 0; k < a->cooling.trials; k++)
-        if (ves_chain_step(chain, a->c) != VES_OK) return;
-}
-
-static bool log_grow(ves_session *session)
-{
-    if (session->temperatures < session->temperature_room) return true;
-    int room = session->temperature_room ? 2 * session->temperature_room : 64;
-    ves_temperature *grown = ves_memory_grow(session->temperature_log, (size_t)room * sizeof *grown);
-    if (!grown) return false;
-    session->temperature_log = grown;
-    session->temperature_room = room;
-    return true;
-}
-
-/* Pools the chains' statistics of one temperature. */
-static ves_status log_temperature(anneal *a)
-{
-    ves_session *session = a->session;
-    if (!log_grow(session)) return VES_MEMORY;
-    ves_temperature t = {.stage = session->stage_index, .c = a->c};
-    for (int k = 0; k < a->chains; k++) {
-        const ves_chain *chain = &a->chain[k];
-        if (!chain->trials) continue;
-        double trials = (double)chain->trials, delta = chain->mean - t.mean;
-        double all = (double)t.trials + trials;
-        t.variance += chain->square + delta * delta * (double)t.trials * trials / all;
-        t.mean += delta * trials / all;
-        t.trials += chain->trials;
-        t.accepted += chain->accepted;
-    }
-    if (t.trials) t.variance /= (double)t.trials;
-    session->acceptance = t.trials ? (double)t.accepted / (double)t.trials : NAN;
-    a->quiet = t.accepted ? 0 : a->quiet + 1;
-    session->temperature_log[session->temperatures++] = t;
-    return VES_OK;
-}
-
-/* The chains offer their bests; who is refused goes back, who passes has a new home. One proof is kept for
- * the last round. */
-static ves_status offer(anneal *a, bool last)
-{
-    ves_session *session = a->session;
-    long before = session->evaluations, most = last ? a->proofs : a->proofs - 1;
-    for (int k = 0; k < a->chains; k++) a->best[k] = &a->chain[k].best;
-    if (most > VES_PROOFS_ROUND) most = VES_PROOFS_ROUND;
-    VES_TRY(ves_session_offer(session, a->best, a->chains, most, a->refused));
-    a->proofs -= session->evaluations - before;
-    for (int k = 0; k < a->chains; k++) {
-        ves_chain *chain = &a->chain[k];
-        if (a->refused[k])
-            ves_chain_return(chain);
-        else if (chain->best.proved)
-            ves_point_copy(&chain->home, &chain->best, session->n, session->m);
-    }
-    a->proved = a->c;
-    return VES_OK;
-}
-
-/* One temperature. Bests are proved when the temperature has halved since the last time: a proof may cost as
- * much as a thousand candidates, and at high temperatures the next best is soon there. */
-static ves_status temperature(anneal *a, int m)
-{
-    ves_session *session = a->session;
-    a->c = session->temperature = a->schedule->temperature(&a->cooling, m);
-    VES_TRY(ves_session_round(session, a->asker, a->chains, cool, a));
-    VES_TRY(log_temperature(a));
-    for (int k = 0; k < a->chains; k++) ves_chain_settle(&a->chain[k]);
-    if (a->c <= 0.5 * a->proved) VES_TRY(offer(a, false));
-    ves_session_progress(session);
-    return VES_OK;
-}
-
-static ves_status lower(anneal *a)
-{
-    ves_session *session = a->session;
-    const ves_cooling *cooling = &a->cooling;
-    double frozen = cooling->c_end * (1 + 1e-9);
-    a->proved = cooling->c0;
-    for (int m = 0; m < cooling->temperatures; m++) {
-        VES_TRY(temperature(a, m));
-        if (ves_session_over(session)) return VES_OK;
-        if (a->c <= frozen && cooling->s < 1 && a->options->c_end < 1) {
-            ves_session_stop(session, VES_ENDED_DONE, "anneal: frozen, the temperature fell to %.3g", a->c);
-            return VES_OK;
-        }
-        if (a->quiet >= QUIET) {
-            ves_session_stop(session, VES_ENDED_DONE,
-                             "anneal: frozen, nothing was accepted at the last %d temperatures", QUIET);
-            return VES_OK;
-        }
-    }
-    ves_session_stop(session, VES_ENDED_BUDGET, "anneal: its budget of %ld evaluation%s is spent", a->budget,
-                     a->budget == 1 ? "" : "s");
-    if (a->options->c_end < 1)
-        ves_session_note(
-            session,
-            "the annealing budget was too short: the temperature fell from %.3g to %.3g only, not to %.3g",
-            cooling->c0, a->c, cooling->c_end);
-    return VES_OK;
-}
-
-static ves_status finish(anneal *a)
-{
-    ves_session *session = a->session;
-    VES_TRY(offer(a, true));
-    ves_end *end = ves_session_ends(session, a->chains);
-    if (!end) return VES_MEMORY;
-    for (int k = 0; k < a->chains; k++)
-        ves_point_copy(&end[k].point, ves_chain_end(&a->chain[k]), session->n, session->m);
-    ves_session_sort(session, end, a->chains);
-    session->end = end;
-    session->ends = a->chains;
-    return VES_OK;
 }
 
 /* Fewer chains only when the budget would not even move each of them once at each temperature. */
@@ -255,23 +49,207 @@ static int population(const ves_anneal *options, long budget)
     return most < 1 ? 1 : options->chains < most ? options->chains : (int)most;
 }
 
-ves_status ves_anneal_run(ves_session *session, const ves_anneal *options, long budget)
+/* A descent may cost a fifth of the budget, until one has shown what it costs. */
+static long keep_aside(const ves_annealing *a)
 {
-    anneal a = {
-        .session = session, .options = options, .schedule = &ves_schedule_exponential, .budget = budget};
-    a.before = session->evaluations;
-    a.proofs = budget / 10 < VES_PROOFS ? budget / 10 : VES_PROOFS;
-    a.chains = population(options, budget);
+    ves_polish polish = ves_polish_default();
+    if (!strcmp(a->options.polish, "none")) return 0;
+    ves_search_complete_polish(a->session->problem, &polish, a->chains);
+    return polish.evaluations < a->budget / 5 ? polish.evaluations : a->budget / 5;
+}
+
+bool ves_annealing_create(ves_annealing *a, ves_session *session, const ves_anneal *options, long budget,
+                          uint32_t stream)
+{
+    *a = (ves_annealing){.session = session, .options = *options, .budget = budget, .start = session->end};
+    a->starts = session->ends;
+    a->schedule = ves_slots_schedule(options->schedule);
+    a->population = ves_slots_population(options->population);
+    a->proofs = budget / 10 < VES_PROOFS ? budget / 10 : VES_PROOFS;
+    a->chains = population(options, budget);
+    a->aside = keep_aside(a);
+    a->cooling = (ves_cooling){.options = &a->options, .n = session->n, .chains = a->chains};
     int draws = LEAST_DRAWS + session->n;
     long affordable = budget / 5;
     if (draws > affordable) draws = (int)affordable;
-    a.draws = (draws + a.chains - 1) / a.chains;
-    session->stage_name = "anneal";
-    if (!create(&a)) return VES_MEMORY;
-    ves_status status = warm(&a);
-    if (status == VES_OK && !ves_session_over(session)) status = lower(&a);
-    if (status == VES_OK) status = finish(&a);
-    for (int k = 0; k < a.chains; k++) ves_asker_destroy(&a.chain[k].asker);
-    session->temperature = session->acceptance = NAN;
+    a->draws = (draws + a->chains - 1) / a->chains;
+    a->step = a->population->meet && 10 * session->n < LONGEST ? 10 * session->n : LONGEST;
+    a->index = session->annealings;
+    return arrays_take(a) && chains_create(a, stream) && ves_annealing_enlist(a);
+}
+
+long ves_annealing_left(const ves_annealing *a)
+{
+    long left = a->budget - a->spent - a->proofs - a->aside;
+    return left > 0 ? left / a->chains : 0;
+}
+
+bool ves_annealing_done(const ves_annealing *a)
+{
+    return a->phase == VES_ANNEALING_OVER;
+}
+
+ves_status ves_annealing_round(ves_annealing *a, void (*task)(void *data, int worker, int index))
+{
+    long before = a->session->evaluations;
+    ves_status status = ves_session_round(a->session, a->asker, a->chains, task, a);
+    a->spent += a->session->evaluations - before;
     return status;
+}
+
+/* --- a temperature --- */
+
+static void cool(void *data, int worker, int index)
+{
+    ves_annealing *a = data;
+    ves_chain *chain = &a->chain[index];
+    double heat = a->c[index] / a->cooling.c0;
+    long left = a->cooling.trials - a->made, trials = left < a->step ? left : a->step;
+    chain->asker.worker = worker;
+    chain->adapt = !a->options.fixed && !a->cooling.settled;
+    for (long k = 0; k < trials; k++)
+        if (ves_chain_step(chain, a->c[index], heat < 1 ? heat : 1) != VES_OK) return;
+}
+
+static ves_status one_round(ves_annealing *a)
+{
+    ves_session *session = a->session;
+    const ves_population *population = a->population;
+    ves_cooling *cooling = &a->cooling;
+    double most = a->schedule->samples ? HUGE_VAL : cooling->c0;
+    session->temperature = cooling->c;
+    for (int k = 0; k < a->chains; k++)
+        a->c[k] =
+            population->temperature ? population->temperature(k, session->n, cooling->c, most) : cooling->c;
+    VES_TRY(ves_annealing_round(a, cool));
+    if (population->meet) population->meet(a->chain, a->chains, a->c, &a->random, a->swaps);
+    a->made += a->step;
+    return VES_OK;
+}
+
+/* Replicas are of one energy: that of the coldest. */
+static void settle(ves_annealing *a)
+{
+    double heat = fmin(a->cooling.c / a->cooling.c0, 1), tolerance = a->session->tolerance;
+    bool shared = a->population->meet, any = false;
+    for (int k = 0; k < a->chains; k++) any = any || a->chain[k].best.verdict.violation <= tolerance;
+    for (int k = 0; k < a->chains; k++) {
+        ves_chain *chain = &a->chain[k];
+        ves_chain_settle(chain, shared ? any : chain->best.verdict.violation <= tolerance, heat);
+        if (shared && k) ves_chain_share(chain, &a->chain[0]);
+    }
+}
+
+static ves_status leg_next(ves_annealing *a)
+{
+    bool begun;
+    VES_TRY(ves_annealing_leg_end(a));
+    if (ves_session_over(a->session)) return VES_OK;
+    a->cooling.leg++;
+    VES_TRY(ves_annealing_leg_begin(a, &begun));
+    if (!begun) a->phase = VES_ANNEALING_OVER;
+    return VES_OK;
+}
+
+/* Bests are proved when the temperature has halved since the last time: a proof may cost as much as a thousand
+ * candidates, and at high temperatures the next best is soon there. */
+static ves_status temperature_end(ves_annealing *a)
+{
+    ves_session *session = a->session;
+    VES_TRY(ves_annealing_log(a));
+    const ves_temperature *seen = &session->temperature_log[session->temperatures - 1];
+    a->quiet = seen->accepted ? 0 : a->quiet + 1;
+    a->frozen = a->quiet >= QUIET && !a->schedule->samples && !a->schedule->steers;
+    a->report.c = a->cooling.c;
+    a->made = 0;
+    bool on = a->schedule->next(&a->cooling, seen) && !a->frozen;
+    settle(a);
+    if (seen->c <= 0.5 * a->proved) VES_TRY(ves_annealing_offer(a));
+    ves_session_progress(session);
+    return on || ves_session_over(session) ? VES_OK : leg_next(a);
+}
+
+/* --- the whole --- */
+
+static ves_status warm(ves_annealing *a)
+{
+    bool begun;
+    VES_TRY(ves_annealing_warm(a));
+    a->phase = VES_ANNEALING_COOL;
+    if (ves_session_over(a->session)) return VES_OK;
+    VES_TRY(ves_annealing_leg_begin(a, &begun));
+    if (!begun) a->phase = VES_ANNEALING_OVER;
+    return VES_OK;
+}
+
+static ves_status unit(ves_annealing *a)
+{
+    if (a->phase == VES_ANNEALING_WARM) return warm(a);
+    VES_TRY(one_round(a));
+    return a->made >= a->cooling.trials ? temperature_end(a) : VES_OK;
+}
+
+ves_status ves_annealing_advance(ves_annealing *a, long evaluations)
+{
+    long until = a->spent + evaluations;
+    while (a->phase != VES_ANNEALING_OVER && a->spent < until && !ves_session_over(a->session))
+        VES_TRY(unit(a));
+    return a->session->fault;
+}
+
+static void tell_stop(ves_annealing *a)
+{
+    ves_session *session = a->session;
+    const ves_cooling *cooling = &a->cooling;
+    bool cools = !a->schedule->samples && cooling->c_end < cooling->c0;
+    if (a->frozen)
+        ves_session_stop(session, VES_ENDED_DONE,
+                         "anneal: frozen, nothing was accepted at the last %d temperatures", QUIET);
+    else if (cooling->cold && cools)
+        ves_session_stop(session, VES_ENDED_DONE, "anneal: frozen, the temperature fell to %.3g",
+                         a->report.c);
+    else
+        ves_session_stop(session, VES_ENDED_BUDGET, "anneal: its budget of %ld evaluation%s is spent",
+                         a->budget, a->budget == 1 ? "" : "s");
+    if (cools && !cooling->cold && !a->frozen)
+        ves_session_note(
+            session,
+            "the annealing budget was too short: the temperature fell from %.3g to %.3g only, not to %.3g",
+            cooling->c0, a->report.c, cooling->c_end);
+}
+
+/* What was stopped on its way ends where it is. */
+ves_status ves_annealing_close(ves_annealing *a)
+{
+    ves_session *session = a->session;
+    if (a->phase == VES_ANNEALING_WARM) return VES_OK;
+    if (!ves_annealing_done(a)) ves_annealing_crown(a);
+    VES_TRY(ves_annealing_offer_last(a));
+    if (!strcmp(a->options.polish, "end") && !ves_session_over(session))
+        VES_TRY(ves_annealing_polish(a, a->champion));
+    if (ves_annealing_done(a)) tell_stop(a);
+    session->temperature = session->acceptance = NAN;
+    return ves_annealing_tell(a);
+}
+
+void ves_annealing_destroy(ves_annealing *a)
+{
+    for (int k = 0; a->asker && k < a->chains; k++)
+        if (a->asker[k]) ves_asker_destroy(a->asker[k]);
+}
+
+ves_status ves_anneal_run(ves_session *session, const ves_anneal *options, long budget)
+{
+    ves_annealing a;
+    uint32_t stream = (uint32_t)session->stage_index;
+    session->stage_name = "anneal";
+    ves_status status = ves_annealing_create(&a, session, options, budget, stream) ? VES_OK : VES_MEMORY;
+    if (status == VES_OK) status = ves_annealing_advance(&a, budget);
+    if (status == VES_OK) status = ves_annealing_close(&a);
+    ves_annealing_destroy(&a);
+    if (status != VES_OK || a.phase == VES_ANNEALING_WARM) return status;
+    ves_session_sort(session, a.champion, a.chains);
+    session->end = a.champion;
+    session->ends = a.chains;
+    return VES_OK;
 }

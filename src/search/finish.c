@@ -303,13 +303,18 @@ static bool fill_logs(ves_search_result *r, ves_session *session)
     const char **note = ves_arena_take(&session->kept, (size_t)session->notes, sizeof *note);
     ves_temperature *log_copy =
         ves_arena_take(&session->kept, (size_t)session->temperatures, sizeof *log_copy);
-    if (!note || !log_copy) return false;
+    ves_annealing_report *report =
+        ves_arena_take(&session->kept, (size_t)session->annealings, sizeof *report);
+    if (!note || !log_copy || !report) return false;
     for (int k = 0; k < session->notes; k++) note[k] = session->note[k];
     for (int k = 0; k < session->temperatures; k++) log_copy[k] = session->temperature_log[k];
+    for (int k = 0; k < session->annealings; k++) report[k] = session->annealing_log[k];
     r->note = note;
     r->notes = session->notes;
     r->temperature = log_copy;
     r->temperatures = session->temperatures;
+    r->annealing = report;
+    r->annealings = session->annealings;
     r->ending = session->ending;
     r->stop = session->stop;
     r->evaluations = session->evaluations;

@@ -3,6 +3,7 @@
 
 #include "search/algorithms.h"
 #include "search/session.h"
+#include "search/slots.h"
 
 /* Of one stage or of the whole search: sums of these do not overflow. */
 static const long most_evaluations = 1L << 53;
@@ -58,7 +59,8 @@ static ves_status check_anneal(const ves_anneal *a)
 {
     if (bad_budget(a->evaluations) || a->chains < 0) return VES_RANGE;
     if (bad(a->c0) || bad(a->c_end) || bad(a->step) || bad(a->weight)) return VES_RANGE;
-    return a->c_end <= 1 && a->step <= 1 && a->s >= 0 && a->s < 1 ? VES_OK : VES_RANGE;
+    bool ranges = a->c_end <= 1 && a->step <= 1 && a->s >= 0 && a->s < 1;
+    return ranges && ves_slots_check(a) ? VES_OK : VES_RANGE;
 }
 
 static ves_status check_polish(const ves_polish *p)
@@ -113,13 +115,13 @@ static long polish_budget(const ves_search_problem *problem, const ves_polish *p
 /* What stays 0 is found from the data. */
 static void complete_anneal(ves_anneal *a, int n)
 {
-    if (!a->chains) a->chains = 4;
+    ves_slots_complete(a);
     if (!a->evaluations) a->evaluations = 2000 + 2000 * (long)n;
     if (a->c_end == 0) a->c_end = 1e-4;
     if (a->step == 0) a->step = 0.1;
 }
 
-static void complete_polish(const ves_search_problem *problem, ves_polish *p, int ends)
+void ves_search_complete_polish(const ves_search_problem *problem, ves_polish *p, int ends)
 {
     if (!p->starts || p->starts > ends) p->starts = ends;
     if (!p->evaluations) p->evaluations = polish_budget(problem, p, p->starts);
@@ -159,7 +161,7 @@ void ves_search_complete(ves_session *session, const ves_search_options *options
             ends = stage->anneal.chains;
             sum += stage->anneal.evaluations;
         } else {
-            complete_polish(problem, &stage->polish, ends);
+            ves_search_complete_polish(problem, &stage->polish, ends);
             ends = stage->polish.starts;
             sum += stage->polish.evaluations;
         }

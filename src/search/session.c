@@ -40,6 +40,7 @@ void ves_session_destroy(ves_session *session)
     ves_pool_destroy(session->pool);
     ves_bytes_free(&session->block);
     ves_memory_free(session->temperature_log);
+    ves_memory_free(session->annealing_log);
     ves_arena_destroy(&session->arena);
     ves_arena_destroy(&session->kept);
 }

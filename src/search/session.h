@@ -93,6 +93,8 @@ struct ves_session {
     const char *stop;
     int temperatures, temperature_room;
     ves_temperature *temperature_log;
+    int annealings, annealing_room;
+    ves_annealing_report *annealing_log;
 };
 
 ves_status ves_session_init(ves_session *session, const ves_search_problem *problem,
@@ -169,6 +171,7 @@ ves_status ves_search_finish(ves_session *session, ves_search_result **result);
 /* options.c: checked and completed options; budgets. */
 ves_status ves_search_check(const ves_search_problem *problem, const ves_search_options *options);
 void ves_search_complete(ves_session *session, const ves_search_options *options);
+void ves_search_complete_polish(const ves_search_problem *problem, ves_polish *polish, int ends);
 long ves_search_share(const ves_session *session, int stage); /* budget of a stage that is about to begin */
 const char *ves_search_algorithm(const ves_search_problem *problem, const ves_polish *polish);
 
