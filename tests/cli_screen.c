@@ -124,7 +124,8 @@ Test(cli_screen, explain_knows_whatever_a_user_may_have_read)
         {"FOLDED", 0, "the surface folds back on itself"},
         {"VES_COARSE", 0, "quadrature:"},
         {"self_intersects", 0, "the surface crosses itself"},
-        {"search.anneal.cooling", 2, "\"search.anneal\" has no \"cooling\": it has evaluations, chains"},
+        {"search.anneal.cooling", 2,
+         "\"search.anneal\" has no \"cooling\": it has evaluations, as, proposal"},
         {"curves.circle.raduis", 2, "it has radius, axis, centre"},
         {"atna2", 2, "did you mean \"atan2\"?"},
         {"vpt", 2, "did you mean \"vtp\"?"},
@@ -139,8 +140,9 @@ Test(cli_screen, explain_knows_whatever_a_user_may_have_read)
 
 Test(cli_screen, every_list_is_one_json_object_too)
 {
-    static const char *const list[] = {"measures", "curves", "moves",    "algorithms",
-                                       "formats",  "units",  "templates"};
+    static const char *const list[] = {"measures",  "curves",    "moves",       "algorithms",
+                                       "proposals", "schedules", "populations", "constraints",
+                                       "formats",   "units",     "templates"};
     root_make();
     for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
         outcome o = vesica(NULL, "list %s --json", list[k]), plain = vesica(NULL, "list %s", list[k]);

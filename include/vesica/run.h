@@ -104,6 +104,8 @@ typedef struct ves_run {
     bool passed; /* every expect held */
     int temperatures;
     const ves_temperature *temperature;
+    int annealings;
+    const ves_annealing_report *annealing;
     ves_run_times times;
 } ves_run;
 

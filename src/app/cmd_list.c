@@ -111,6 +111,36 @@ static void algorithms(app *a, sink *s)
     }
 }
 
+static void choices(sink *s, ves_slot slot)
+{
+    ves_choice choice;
+    for (int k = 0; ves_search_choice(slot, k, &choice); k++) plain(s, choice.name, choice.about);
+}
+
+static void proposals(app *a, sink *s)
+{
+    (void)a;
+    choices(s, VES_SLOT_PROPOSAL);
+}
+
+static void schedules(app *a, sink *s)
+{
+    (void)a;
+    choices(s, VES_SLOT_SCHEDULE);
+}
+
+static void populations(app *a, sink *s)
+{
+    (void)a;
+    choices(s, VES_SLOT_POPULATION);
+}
+
+static void constraints(app *a, sink *s)
+{
+    (void)a;
+    choices(s, VES_SLOT_CONSTRAINTS);
+}
+
 static void formats(app *a, sink *s)
 {
     (void)a;
@@ -170,8 +200,18 @@ static void functions(app *a, sink *s)
 static const struct list {
     const char *name;
     void (*fill)(app *a, sink *s);
-} lists[] = {{"measures", measures}, {"curves", curves}, {"moves", moves},         {"algorithms", algorithms},
-             {"formats", formats},   {"units", units},   {"templates", templates}, {"functions", functions}};
+} lists[] = {{"measures", measures},
+             {"curves", curves},
+             {"moves", moves},
+             {"algorithms", algorithms},
+             {"proposals", proposals},
+             {"schedules", schedules},
+             {"populations", populations},
+             {"constraints", constraints},
+             {"formats", formats},
+             {"units", units},
+             {"templates", templates},
+             {"functions", functions}};
 
 enum { LISTS = sizeof lists / sizeof *lists };
 
@@ -198,6 +238,8 @@ int app_list(app *a)
     }
     int near = word ? ves_text_nearest(word, name, LISTS) : -1;
     if (near >= 0) return app_fail(a, VES_USAGE, "no list \"%s\", did you mean \"%s\"?", word, name[near]);
-    return app_fail(a, VES_USAGE,
-                    "list what? measures, curves, moves, algorithms, formats, units, templates or functions");
+    return app_fail(
+        a, VES_USAGE,
+        "list what? measures, curves, moves, algorithms, proposals, schedules, populations, constraints, "
+        "formats, units, templates or functions");
 }

@@ -322,6 +322,32 @@ static void effort(const ves_run *run, app_table *t)
     app_table_cell(t, "%s", run->stop);
 }
 
+/* One line each: how it was, and what it says of itself. */
+static void annealings(const ves_run *run, app_table *t)
+{
+    for (int k = 0; k < run->annealings; k++) {
+        const ves_annealing_report *r = &run->annealing[k];
+        char text[300], legs[64];
+        size_t at = 0;
+        for (int j = 0; j < r->moves && at < sizeof text; j++) {
+            const ves_move_count *m = &r->count[j];
+            int length = snprintf(text + at, sizeof text - at, "%s%s %.0f %%", j ? ", " : "", r->move[j],
+                                  m->trials ? 100 * (double)m->accepted / (double)m->trials : 0);
+            at += length > 0 ? (size_t)length : 0;
+        }
+        app_table_cell(t, k ? "" : "annealed");
+        app_table_cell(t, "T %.2g to %.2g in %s; accepted: %s", r->c0, r->c,
+                       app_screen_plural(r->legs, "leg", "legs", legs), text);
+        if (r->swaps) {
+            app_table_cell(t, "%s", "");
+            app_table_cell(t, "exchanges of replicas: %.0f %%, the least of a pair %.0f %%",
+                           100 * (double)r->swapped / (double)r->swaps, 100 * r->least_swap);
+        }
+        app_table_cell(t, "%s", "");
+        app_table_cell(t, "%s", r->sentence);
+    }
+}
+
 static void remarks(const ves_run *run, FILE *out)
 {
     app_table t = {.align = "ll"};
@@ -334,6 +360,7 @@ static void remarks(const ves_run *run, FILE *out)
     optima(run, &t);
     expectations(run, &t);
     effort(run, &t);
+    annealings(run, &t);
     for (int k = 0; k < run->notes; k++) {
         app_table_cell(&t, k ? "" : "notes");
         app_table_cell(&t, "%s", run->note[k]);

@@ -169,6 +169,7 @@ void ves_describe_kind(ves_writer *writer, const ves_key *key)
                                            "measure",
                                            "stage",
                                            "algorithm",
+                                           "word",
                                            "whole number",
                                            "formula of measures",
                                            "equation a == b",

@@ -83,6 +83,15 @@ static void key_line(ves_writer *w, const ves_key *key)
     ves_memory_free(extra.text);
 }
 
+/* The words of a slot, each on a line. */
+static void words_help(ves_writer *w, const ves_key *key)
+{
+    ves_choice choice;
+    if ((int)key->kind != VES_SLOT_WORD) return;
+    for (int k = 0; ves_search_choice((ves_slot)key->max, k, &choice); k++)
+        ves_write(w, "      %s: %s\n", choice.name, choice.about);
+}
+
 static void entry_help(help *h, const ves_entry *entry, const char *path)
 {
     ves_writer *w = &h->writer;
@@ -93,6 +102,7 @@ static void entry_help(help *h, const ves_entry *entry, const char *path)
     }
     ves_write(w, "%s\n", path);
     key_line(w, &entry->key);
+    words_help(w, &entry->key);
     if (entry->example) ves_write(w, "      example: %s\n", entry->example);
     const ves_entry *table = entry->table;
     bool item = (int)entry->key.kind == VES_LIST || (int)entry->key.kind == VES_NAMED;
@@ -193,6 +203,19 @@ static void algorithm_help(help *h)
                   a->name, a->about, a->name, a->gradient ? "uses them" : "does without",
                   a->inequality ? "itself" : "through auglag", a->equality ? "itself" : "through auglag");
     }
+}
+
+static void choice_help(help *h)
+{
+    static const char *const key[] = {"proposal", "schedule", "population", "constraints", "polish", "as"};
+    ves_choice choice;
+    for (int slot = 0; slot <= VES_SLOT_PRESET; slot++)
+        for (int k = 0; ves_search_choice((ves_slot)slot, k, &choice); k++) {
+            if (!is_word(h, choice.name)) continue;
+            heading(h);
+            ves_write(&h->writer, "%s: a word of anneal.%s\n      %s\n      example: {anneal: {%s: %s}}\n",
+                      choice.name, key[slot], choice.about, key[slot], choice.name);
+        }
 }
 
 static void unit_help(help *h)
@@ -301,6 +324,7 @@ char *ves_schema_explain(ves_arena *arena, const char *word, const ves_measure *
     curve_help(h);
     measure_help(h);
     algorithm_help(h);
+    choice_help(h);
     unit_help(h);
     function_help(h);
     status_help(h);

@@ -158,6 +158,15 @@ static void source(ves_writer *w, const ves_entry *e, const ves_measure *const *
     ves_write(w, "}");
 }
 
+static void choices(ves_writer *w, ves_slot slot)
+{
+    ves_choice choice;
+    ves_write(w, "\"enum\":[");
+    for (int k = 0; ves_search_choice(slot, k, &choice); k++)
+        ves_write(w, "%s\"%s\"", k ? "," : "", choice.name);
+    ves_write(w, "]");
+}
+
 static void algorithms(ves_writer *w)
 {
     const char *gap = "";
@@ -286,6 +295,9 @@ static void compound(ves_writer *w, const ves_entry *e, const ves_measure *const
         break;
     case VES_ALGORITHM:
         algorithms(w);
+        break;
+    case VES_SLOT_WORD:
+        choices(w, (ves_slot)e->key.max);
         break;
     case VES_SEED:
         ves_write(w, "\"type\":[\"integer\",\"string\"],\"minimum\":0");

@@ -130,6 +130,19 @@ static void measures(ves_writer *w, const ves_measure *const *plugin)
         }
 }
 
+static void choices(ves_writer *w)
+{
+    static const char *const key[] = {"proposal", "schedule", "population", "constraints", "polish", "as"};
+    ves_choice choice;
+    ves_write(w, "\n### Words of `anneal`\n\n| key | word | |\n| --- | --- | --- |\n");
+    for (int slot = 0; slot <= VES_SLOT_PRESET; slot++)
+        for (int k = 0; ves_search_choice((ves_slot)slot, k, &choice); k++) {
+            ves_write(w, "| `%s` | `%s` | ", key[slot], choice.name);
+            cell_text(w, choice.about);
+            ves_write(w, " |\n");
+        }
+}
+
 static void searches(ves_writer *w)
 {
     const ves_entry *stage = ves_schema_find(ves_schema_root.table, "search")->table->table;
@@ -144,6 +157,7 @@ static void searches(ves_writer *w)
         cell_text(w, a->about);
         ves_write(w, " |\n");
     }
+    choices(w);
 }
 
 static void units(ves_writer *w)

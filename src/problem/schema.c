@@ -222,12 +222,18 @@ static const ves_entry quadrature_keys[] = {
 
 static const ves_entry anneal_keys[] = {
     {{"evaluations", VES_COUNT, .min = 0, .max = 2e9, .about = "budget, all chains together; 0: from the number of variables"}, "evaluations: 20000", NULL},
-    {{"chains", VES_COUNT, .min = 0, .max = 4096, .about = "independent chains; 0: 4"}, "chains: 4", NULL},
+    {{"as", KIND(VES_SLOT_WORD), .max = VES_SLOT_PRESET, .about = "words for all that is not given. book: proposal fixed, schedule book, population chain, constraints crude"}, "as: book", NULL},
+    {{"proposal", KIND(VES_SLOT_WORD), .max = VES_SLOT_PROPOSAL, .about = "how the next candidate is made; mixture unless given"}, "proposal: mixture", NULL},
+    {{"schedule", KIND(VES_SLOT_WORD), .max = VES_SLOT_SCHEDULE, .about = "how the temperature falls; budget unless given, with s book"}, "schedule: lam", NULL},
+    {{"population", KIND(VES_SLOT_WORD), .max = VES_SLOT_POPULATION, .about = "what the chains are to each other; chains unless given"}, "population: tempering", NULL},
+    {{"constraints", KIND(VES_SLOT_WORD), .max = VES_SLOT_CONSTRAINTS, .about = "what a violation costs; lagrangian unless given"}, "constraints: penalty", NULL},
+    {{"polish", KIND(VES_SLOT_WORD), .max = VES_SLOT_POLISH, .about = "descents from where the chains are; none unless given"}, "polish: stages", NULL},
+    {{"chains", VES_COUNT, .min = 0, .max = 4096, .about = "size of the population; 0: as many as it says"}, "chains: 4", NULL},
     {{"c0", VES_NUMBER, .unit = "1", .min = 0, .max = HUGE_VAL, .fallback = NAN, .about = "first temperature; unless given, measured"}, "c0: 1", NULL},
     {{"s", VES_NUMBER, .unit = "1", .min = 0, .max = 1, .fallback = NAN, .about = "schedule c_m = c0 exp((s-1) m); unless given, from the budget"}, "s: 0.9", NULL},
     {{"c_end", VES_NUMBER, .unit = "1", .min = 0, .max = 1, .fallback = NAN, .about = "frozen at c_end * c0; 1e-4 unless given"}, "c_end: 1e-4", NULL},
     {{"step", VES_NUMBER, .unit = "1", .min = 0, .max = 1, .fallback = NAN, .about = "first step width as a fraction of each range; 0.1 unless given"}, "step: 0.1", NULL},
-    {{"adapt", VES_FLAG, .fallback = 1, .about = "step widths follow the acceptance"}, "adapt: true", NULL},
+    {{"adapt", VES_FLAG, .fallback = 1, .about = "step widths follow the acceptance, covariances are learnt"}, "adapt: true", NULL},
     {{"weight", VES_NUMBER, .unit = "1", .min = 0, .max = HUGE_VAL, .fallback = NAN, .about = "penalty per unit of violation; unless given, from the data"}, "weight: 10", NULL},
     END};
 

@@ -24,6 +24,7 @@ enum {
     VES_INSTANCE,  /* one measure with its keys */
     VES_STAGE,     /* one stage of a search: one key of `table` */
     VES_ALGORITHM, /* a word of ves_search_algorithms */
+    VES_SLOT_WORD, /* a choice of ves_search_choice; max: of which slot */
     VES_SEED,      /* a whole number up to 2^53 */
     VES_GOAL,      /* a formula of slots and measures */
     VES_EQUATION,  /* a == b of such formulas */

@@ -49,6 +49,38 @@ static void set_opposite(ves_reader *reader, const ves_fields *f, const char *na
     *value = !flag;
 }
 
+/* Words of the slots, and what their errors call them. */
+static void set_choice(ves_reader *reader, const ves_fields *f, const char *name, const char **value)
+{
+    const ves_field *x = field(f, name);
+    const char *known[64];
+    ves_choice choice;
+    int count = 0;
+    if (!x->node || !ves_reader_word(reader, x->node, name)) return;
+    for (; count < 64 && ves_search_choice((ves_slot)x->key->max, count, &choice); count++) {
+        known[count] = choice.name;
+        if (!strcmp(choice.name, x->node->text)) *value = choice.name;
+    }
+    if (*value) return;
+    const char *near = ves_reader_suggestion(reader, x->node->text, known, count);
+    ves_reader_error(reader, VES_NAME, x->node, "\"%s\" knows no \"%.80s\"%s%s", name, x->node->text, near,
+                     *near ? "" : " (vesica explain anneal tells the words)");
+}
+
+static void read_slots(ves_reader *reader, const ves_fields *f, ves_anneal *a)
+{
+    set_choice(reader, f, "as", &a->as);
+    set_choice(reader, f, "proposal", &a->proposal);
+    set_choice(reader, f, "schedule", &a->schedule);
+    set_choice(reader, f, "population", &a->population);
+    set_choice(reader, f, "constraints", &a->constraints);
+    set_choice(reader, f, "polish", &a->polish);
+    const ves_node *chains = field(f, "chains")->node;
+    if (chains && a->chains > 1 && a->population && !strcmp(a->population, "chain"))
+        ves_reader_error(reader, VES_RANGE, chains, "\"population: chain\" is 1, got %d: say chains",
+                         a->chains);
+}
+
 static ves_anneal read_anneal(ves_reader *reader, const ves_fields *f)
 {
     ves_anneal a = ves_anneal_default();
@@ -64,6 +96,7 @@ static ves_anneal read_anneal(ves_reader *reader, const ves_fields *f)
     set_number(reader, f, "step", &a.step);
     set_opposite(reader, f, "adapt", &a.fixed);
     set_number(reader, f, "weight", &a.weight);
+    read_slots(reader, f, &a);
     return a;
 }
 

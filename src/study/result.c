@@ -150,22 +150,84 @@ static void sentences(const ves_run *run, ves_json *json)
     ves_json_end(json, ']');
 }
 
+static const char *health_word(ves_health health)
+{
+    static const char *const word[] = {"frozen", "not equilibrated", "budget too short", "sampled",
+                                       "stopped"};
+    return word[health];
+}
+
+static void annealings(const ves_run *run, ves_json *json)
+{
+    ves_json_array(json, "annealings");
+    for (int k = 0; k < run->annealings; k++) {
+        const ves_annealing_report *r = &run->annealing[k];
+        ves_json_object(json, NULL);
+        ves_json_integer(json, "stage", r->stage);
+        ves_json_text(json, "proposal", r->proposal);
+        ves_json_text(json, "schedule", r->schedule);
+        ves_json_text(json, "population", r->population);
+        ves_json_text(json, "constraints", r->constraints);
+        ves_json_text(json, "polish", r->polish);
+        ves_json_integer(json, "chains", r->chains);
+        ves_json_integer(json, "legs", r->legs);
+        ves_json_number(json, "c0", r->c0);
+        ves_json_number(json, "c", r->c);
+        ves_json_number(json, "freezing", r->freezing);
+        ves_json_number(json, "peak", r->peak);
+        ves_json_number(json, "apart", r->apart);
+        ves_json_integer(json, "swaps", r->swaps);
+        ves_json_integer(json, "swapped", r->swapped);
+        ves_json_number(json, "least_swap", r->least_swap);
+        ves_json_text(json, "health", health_word(r->health));
+        ves_json_text(json, "sentence", r->sentence);
+        ves_json_object(json, "moves");
+        for (int j = 0; j < r->moves; j++) {
+            ves_json_object(json, r->move[j]);
+            ves_json_integer(json, "trials", r->count[j].trials);
+            ves_json_integer(json, "accepted", r->count[j].accepted);
+            ves_json_number(json, "width", r->count[j].width);
+            ves_json_end(json, '}');
+        }
+        ves_json_end(json, '}');
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+}
+
+/* In the order of the moves of its annealing. */
+static void moves(const ves_run *run, const ves_temperature *t, ves_json *json)
+{
+    int count = run->annealing[t->annealing].moves;
+    ves_json_array(json, "acceptance");
+    for (int j = 0; j < count; j++)
+        ves_json_number(json, NULL, (double)t->move[j].accepted / (double)t->move[j].trials);
+    ves_json_end(json, ']');
+    ves_json_array(json, "width");
+    for (int j = 0; j < count; j++) ves_json_number(json, NULL, t->move[j].width);
+    ves_json_end(json, ']');
+}
+
 static void statistics(const ves_run *run, ves_json *json)
 {
     ves_json_object(json, "failed");
     for (int k = 0; k < run->failures; k++)
         ves_json_integer(json, ves_tracer_word(run->failure[k].status), run->failure[k].count);
     ves_json_end(json, '}');
+    annealings(run, json);
     ves_json_array(json, "temperatures");
     for (int k = 0; k < run->temperatures; k++) {
         const ves_temperature *t = &run->temperature[k];
         ves_json_object(json, NULL);
         ves_json_integer(json, "stage", t->stage);
+        ves_json_integer(json, "annealing", t->annealing);
+        ves_json_integer(json, "leg", t->leg);
         ves_json_number(json, "c", t->c);
         ves_json_integer(json, "trials", t->trials);
         ves_json_integer(json, "accepted", t->accepted);
         ves_json_number(json, "mean", t->mean);
         ves_json_number(json, "variance", t->variance);
+        moves(run, t, json);
         ves_json_end(json, '}');
     }
     ves_json_end(json, ']');

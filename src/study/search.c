@@ -110,13 +110,22 @@ static ves_status counts_take(ves_study *s, const ves_search_result *r)
     ves_run *run = s->run;
     ves_temperature *temperature = ves_arena_take(s->arena, (size_t)r->temperatures, sizeof *temperature);
     ves_run_failure *failure = ves_arena_take(s->arena, VES_FAILURES, sizeof *failure);
-    if (!temperature || !failure) return VES_MEMORY;
+    ves_annealing_report *annealing = ves_arena_take(s->arena, (size_t)r->annealings, sizeof *annealing);
+    if (!temperature || !failure || !annealing) return VES_MEMORY;
+    for (int k = 0; k < r->annealings; k++) {
+        const char *sentence = r->annealing[k].sentence;
+        annealing[k] = r->annealing[k];
+        annealing[k].sentence = ves_arena_text(s->arena, sentence, strlen(sentence));
+        if (!annealing[k].sentence) return VES_MEMORY;
+    }
     for (int k = 0; k < r->temperatures; k++) temperature[k] = r->temperature[k];
     run->failures = 0;
     for (int k = 0; k < VES_FAILURES; k++)
         if (s->failed[k]) failure[run->failures++] = (ves_run_failure){(ves_status)k, s->failed[k]};
     run->failure = failure;
     if (!r->temperatures) return VES_OK;
+    run->annealing = annealing;
+    run->annealings = r->annealings;
     run->temperature = temperature;
     run->temperatures = r->temperatures;
     return VES_OK;
