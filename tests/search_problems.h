@@ -66,6 +66,16 @@ static inline ves_search_options only_anneal(long evaluations)
     return o;
 }
 
+/* Chains, each of whose ends is polished. */
+static inline ves_search_options chains_and_polish(int chains)
+{
+    ves_search_options o = only_anneal(0);
+    o.stages = 2;
+    o.stage[0].anneal.chains = chains;
+    o.stage[1] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = ves_polish_default()};
+    return o;
+}
+
 static inline double *gradient_of(const ves_ask *ask, ves_verdict *verdict)
 {
     return ask->want & VES_WANT_GRADIENT ? verdict->gradient : NULL;

@@ -85,9 +85,9 @@ Test(units, a_wide_tolerance_is_not_used_up)
 {
     const given two = {.evaluate = product, .n = 2, .m = 1};
     const double wide[] = {1e-6, 1e-3, 0.01, 0.1, 0.5};
-    ves_search_options o = ves_search_options_default();
     for (int gradients = 0; gradients < 2; gradients++)
         for (int k = 0; k < 5; k++) {
+            ves_search_options o = chains_and_polish(gradients ? 16 : 8);
             measured s = {&two, {1e-6 / wide[k]}};
             given g = {.evaluate = in_units,
                        .n = 2,

@@ -98,10 +98,17 @@ typedef struct ves_polish {
                               gradients) */
 } ves_polish;
 
-typedef enum ves_stage_kind { VES_STAGE_ANNEAL, VES_STAGE_POLISH } ves_stage_kind;
+/* A portfolio of strategies that share the budget by their progress. */
+typedef struct ves_auto {
+    long evaluations; /* budget of the stage; 0: from the number of variables */
+    const char *only; /* the name of the one strategy: hop, cma, lines; NULL: those that fit */
+} ves_auto;
+
+typedef enum ves_stage_kind { VES_STAGE_ANNEAL, VES_STAGE_POLISH, VES_STAGE_AUTO } ves_stage_kind;
 
 typedef struct ves_stage {
     ves_stage_kind kind;
+    ves_auto automatic;
     ves_anneal anneal;
     ves_polish polish;
 } ves_stage;
@@ -109,7 +116,7 @@ typedef struct ves_stage {
 enum { VES_STAGES = 16 };
 
 typedef struct ves_search_options {
-    int stages; /* 0: auto = anneal with 8 chains (16 when there are gradients), then polish each end */
+    int stages; /* 0: a portfolio, then a polish of the best of its distinct ends */
     ves_stage stage[VES_STAGES];
     uint64_t seed; /* default: 1 */
 

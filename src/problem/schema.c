@@ -287,7 +287,7 @@ static const ves_entry root[] = {
     {{"constraints", KIND(VES_LIST), .about = "relations that the shape must meet"}, "constraints: [area <= 14]", relation},
     {{"validity", KIND(VES_MAP), .about = "which surfaces are refused"}, "validity: {jacobian: positive, self_intersection: best}", validity_keys},
     {{"quadrature", KIND(VES_MAP), .words = "auto", .about = "nodes of integrals on each patch; auto: chosen at the start design, and again at the best if that asks for more"}, "quadrature: {u: 16, v: 32}", quadrature_keys},
-    {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of the search; auto: anneal, then polish"}, "search: [{anneal: {evaluations: 20000}}, {polish: {algorithm: slsqp}}]", ves_schema_stage},
+    {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of the search; auto: a portfolio of basin hopping, CMA-ES and searches along the axes, then a polish of the best ends"}, "search: [{anneal: {evaluations: 20000}}, {polish: {algorithm: slsqp}}]", ves_schema_stage},
     {{"seed", KIND(VES_SEED), .fallback = 1, .about = "seed of the random numbers: same seed, same result"}, "seed: 7", NULL},
     {{"expect", KIND(VES_LIST), .about = "checks at the end of a run"}, "expect: [violation < 1e-6]", check},
     {{"test", KIND(VES_MAP), .about = "a smaller run for tests"}, "test: {evaluations: 500, expect: [feasible]}", test_keys},

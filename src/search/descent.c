@@ -7,7 +7,7 @@
  * max(|c_0|, max_i |dc/du_i|): a constraint may be told in any units, if only its tolerance is told in them
  * too. What NLopt returns is not looked at but for the reason: the best is what we have seen ourselves. */
 
-enum { RESTARTS = 5, CHOICES = 3 };
+enum { RUNS = 5, CHOICES = 3, RELAX = 20 };
 
 /* NLopt's own loops: questions in a row for one point (they come by threes, and a model that is stiffened ten
  * times each until it yields passes 300); steps for one dual problem, where NLopt itself allows ten times
@@ -16,6 +16,7 @@ enum { HANG = 2000, DUAL_STEPS = 10000 };
 
 static const double difference = 3e-8;    /* step in u: about sqrt(rounding) */
 static const double proportional = 1e-12; /* exact slopes that differ by so little are those of one thing */
+static const double stride = 0.05, flatter = 0.3;
 static const double squeezed =
     1e-6; /* in u: a line search that ends so near to a failed candidate ran into it */
 
@@ -97,7 +98,7 @@ bool ves_descent_create(ves_descent *d, ves_session *session, int member, const 
 {
     size_t n = (size_t)session->n, m = (size_t)session->m;
     ves_arena *arena = &session->arena;
-    *d = (ves_descent){.session = session, .options = options, .budget = budget};
+    *d = (ves_descent){.session = session, .options = options, .budget = budget, .runs = RUNS};
     ves_asker_init(&d->asker, session, member);
     if (!share_create(d)) return false;
     d->recipe = ves_recipe_find(options->algorithm, session->n, session->problem->gradients);
@@ -446,7 +447,8 @@ ves_status ves_descent_minimise(ves_descent *d, double step, double factor)
     if (d->code > 0) d->code = nlopt_optimize(d->opt, d->route, &value);
     nlopt_destroy(d->opt);
     d->opt = NULL;
-    return d->code == NLOPT_OUT_OF_MEMORY ? VES_MEMORY : VES_OK;
+    if (d->code == NLOPT_OUT_OF_MEMORY) d->asker.fault = VES_MEMORY;
+    return d->asker.fault == VES_MEMORY ? VES_MEMORY : VES_OK;
 }
 
 static ves_status once(ves_descent *d, double step)
@@ -529,6 +531,26 @@ static bool contrary(const ves_descent *d)
            d->inequalities + d->equalities > 0;
 }
 
+/* Walks off a place where the slopes are of another size than everywhere else: scaled by them, no algorithm
+ * would see the rest. Steps of a part of the box down the slope, as long as each leads to far less of it. */
+static ves_status relax(ves_descent *d, ves_point *point)
+{
+    const int n = d->session->n;
+    VES_TRY(ves_descent_look(d, point->u, true));
+    memcpy(d->route, point->u, (size_t)n * sizeof(double));
+    for (int k = 0; k < RELAX && d->last.status == VES_OK; k++) {
+        double steep = steepest(d);
+        for (int i = 0; steep > 0 && i < n; i++) {
+            double to = d->route[i] - stride * d->last.gradient[i] * d->range[i] / steep;
+            d->route[i] = to < 0 ? 0 : to > 1 ? 1 : to;
+        }
+        VES_TRY(ves_descent_look(d, d->route, true));
+        if (d->last.status != VES_OK || !(steepest(d) < flatter * steep)) break;
+    }
+    if (d->best.verdict.status == VES_OK) ves_point_copy(point, &d->best, n, d->session->m);
+    return VES_OK;
+}
+
 ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *end)
 {
     int n = d->session->n, m = d->session->m;
@@ -537,7 +559,8 @@ ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *en
     ves_status status = VES_OK;
     double step = 0.1;
     bool due = true;
-    for (int k = 0; (k < RESTARTS || due) && status == VES_OK && !d->halted; k++, step *= 0.3) {
+    if (d->recipe.gradient && d->session->problem->gradients && !m) status = relax(d, end);
+    for (int k = 0; (k < d->runs || due) && status == VES_OK && !d->halted; k++, step *= 0.3) {
         bool limited = d->reach < 1;
         status = descend(d, d->turned ? &d->aside : end, k == 0, step);
         ves_verdict before = end->verdict;

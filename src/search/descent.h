@@ -33,6 +33,7 @@ typedef struct ves_descent {
     bool halfway;               /* the Lagrangian holds all: they contradict each other */
     double *range;              /* [n] upper - lower */
 
+    int runs;                   /* of the algorithm at most, each from the end of the one before */
     long budget, used, repeats; /* evaluations of this task; questions for the same point in a row */
     nlopt_opt opt;              /* while it runs */
     nlopt_result code;          /* of the last run */

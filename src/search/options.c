@@ -72,6 +72,12 @@ static ves_status check_polish(const ves_polish *p)
     return a->name ? VES_OK : VES_RANGE;
 }
 
+static ves_status check_auto(const ves_auto *a)
+{
+    bool known = !a->only || ves_strategy_known(a->only);
+    return known && !bad_budget(a->evaluations) ? VES_OK : VES_RANGE;
+}
+
 ves_status ves_search_check(const ves_search_problem *problem, const ves_search_options *options)
 {
     VES_TRY(check_box(problem));
@@ -83,6 +89,8 @@ ves_status ves_search_check(const ves_search_problem *problem, const ves_search_
             VES_TRY(check_anneal(&stage->anneal));
         else if (stage->kind == VES_STAGE_POLISH)
             VES_TRY(check_polish(&stage->polish));
+        else if (stage->kind == VES_STAGE_AUTO)
+            VES_TRY(check_auto(&stage->automatic));
         else
             return VES_RANGE;
     }
@@ -132,12 +140,29 @@ void ves_search_complete_polish(const ves_search_problem *problem, ves_polish *p
 
 static long asked(const ves_stage *stage)
 {
-    return stage->kind == VES_STAGE_ANNEAL ? stage->anneal.evaluations : stage->polish.evaluations;
+    switch (stage->kind) {
+    case VES_STAGE_ANNEAL:
+        return stage->anneal.evaluations;
+    case VES_STAGE_POLISH:
+        return stage->polish.evaluations;
+    case VES_STAGE_AUTO:
+        return stage->automatic.evaluations;
+    }
+    return 0;
 }
 
-/* With gradients a polish costs less than a chain's warm-up: many short chains find more basins than few long
- * ones. */
-enum { AUTO_CHAINS = 16, AUTO_CHAINS_VALUES = 8 };
+enum { AUTO_STARTS = 16 }; /* polished in the end */
+
+/* A portfolio, and a last polish of the best of its ends, each of which a descent has been to already. */
+static void automatic(const ves_search_problem *problem, const ves_search_options *options, ves_stage *stage)
+{
+    ves_polish polish = {.starts = AUTO_STARTS};
+    long whole = options->evaluations, usual = polish_budget(problem, &polish, AUTO_STARTS);
+    if (whole) polish.evaluations = whole / 10 < usual ? whole / 10 : usual;
+    stage[0] =
+        (ves_stage){.kind = VES_STAGE_AUTO, .automatic.evaluations = whole ? whole - polish.evaluations : 0};
+    stage[1] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = polish};
+}
 
 /* Fills in every default, so that the stages need not. */
 void ves_search_complete(ves_session *session, const ves_search_options *options)
@@ -147,16 +172,18 @@ void ves_search_complete(ves_session *session, const ves_search_options *options
     memcpy(session->stage, options->stage, sizeof session->stage);
     if (!options->stages) {
         session->stages = 2;
-        session->stage[0] = (ves_stage){.kind = VES_STAGE_ANNEAL, .anneal = ves_anneal_default()};
-        session->stage[0].anneal.chains = problem->gradients ? AUTO_CHAINS : AUTO_CHAINS_VALUES;
-        session->stage[1] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = ves_polish_default()};
+        automatic(problem, options, session->stage);
     }
     long sum = 0;
     int ends = 1 + problem->others;
     for (int k = 0; k < session->stages; k++) {
         ves_stage *stage = &session->stage[k];
         session->grows[k] = options->evaluations && !asked(stage);
-        if (stage->kind == VES_STAGE_ANNEAL) {
+        if (stage->kind == VES_STAGE_AUTO) {
+            if (!stage->automatic.evaluations) stage->automatic.evaluations = 2000 + 2000 * (long)problem->n;
+            ends = AUTO_STARTS;
+            sum += stage->automatic.evaluations;
+        } else if (stage->kind == VES_STAGE_ANNEAL) {
             complete_anneal(&stage->anneal, problem->n);
             ends = stage->anneal.chains;
             sum += stage->anneal.evaluations;

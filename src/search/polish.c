@@ -23,7 +23,6 @@ typedef struct task {
     int edges, edge;     /* ends beside what cannot be measured; along which variable, at the first */
     ves_status beyond;   /* there: why not */
     bool running;        /* at one of them the value has not stopped falling */
-    bool memory;
 } task;
 
 typedef struct polish {
@@ -110,7 +109,6 @@ static void run(void *data, int worker, int index)
     t->waiting = 1;
     while (t->waiting) {
         ves_status status = advance(t);
-        if (status == VES_MEMORY) t->memory = true;
         if (status != VES_OK) return;
     }
 }
@@ -293,8 +291,6 @@ static ves_status work(polish *p)
     for (int k = 0; k < p->tasks; k++) asker[k] = &p->task[k].descent.asker;
     ves_status status = ves_session_round(session, asker, p->tasks, run, p);
     ves_session_progress(session);
-    for (int k = 0; k < p->tasks; k++)
-        if (p->task[k].memory) status = session->fault = VES_MEMORY;
     return status;
 }
 
@@ -304,20 +300,6 @@ static int population(const ves_session *session, const ves_polish *options, lon
     long most = budget / (LEAST * (2 + (long)session->n));
     int wanted = options->starts && options->starts < session->ends ? options->starts : session->ends;
     return most < 1 ? 1 : wanted < most ? wanted : (int)most;
-}
-
-/* What descents have seen of the slopes: the least they agree on. */
-static void raise_price(polish *p)
-{
-    ves_session *session = p->session;
-    for (int j = 0; j < session->m; j++) {
-        double least = HUGE_VAL;
-        for (int k = 0; k < p->tasks; k++) {
-            double price = p->task[k].descent.price[j];
-            if (price > 0 && price < least) least = price;
-        }
-        if (least < HUGE_VAL) session->price[j] = fmax(session->price[j], least);
-    }
 }
 
 ves_status ves_polish_run(ves_session *session, const ves_polish *options, long budget)
@@ -333,7 +315,10 @@ ves_status ves_polish_run(ves_session *session, const ves_polish *options, long 
     if (!options->stay && session->problem->gradients && session->n > VES_SADDLE_MOST)
         ves_session_note(session, "no check for saddles: more than %d variables", VES_SADDLE_MOST);
     ves_status status = work(&p);
-    raise_price(&p);
+    const double **price = ves_arena_take(&session->arena, (size_t)p.tasks, sizeof *price);
+    if (!price) return VES_MEMORY;
+    for (int k = 0; k < p.tasks; k++) price[k] = p.task[k].descent.price;
+    ves_session_raise(session, price, p.tasks);
     if (status == VES_OK) {
         tell_stop(&p, options);
         note_saddles(&p);

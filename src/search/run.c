@@ -6,8 +6,15 @@ static ves_status stage_run(ves_session *session, int k, long budget)
 {
     session->stage_index = k;
     const ves_stage *stage = &session->stage[k];
-    return stage->kind == VES_STAGE_ANNEAL ? ves_anneal_run(session, &stage->anneal, budget)
-                                           : ves_polish_run(session, &stage->polish, budget);
+    switch (stage->kind) {
+    case VES_STAGE_ANNEAL:
+        return ves_anneal_run(session, &stage->anneal, budget);
+    case VES_STAGE_POLISH:
+        return ves_polish_run(session, &stage->polish, budget);
+    case VES_STAGE_AUTO:
+        return ves_portfolio_run(session, &stage->automatic, budget);
+    }
+    return VES_FAULT;
 }
 
 static ves_status work(ves_session *session)

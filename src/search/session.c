@@ -89,6 +89,16 @@ bool ves_session_better(const ves_session *session, const ves_verdict *a, const 
     return ves_session_better_at(session, session->price, a, b);
 }
 
+void ves_session_raise(ves_session *session, const double *const *price, int count)
+{
+    for (int j = 0; j < session->m; j++) {
+        double least = HUGE_VAL;
+        for (int k = 0; k < count; k++)
+            if (price[k][j] > 0 && price[k][j] < least) least = price[k][j];
+        if (least < HUGE_VAL) session->price[j] = fmax(session->price[j], least);
+    }
+}
+
 /* By insertion: stable, and there are few ends. */
 void ves_session_sort(const ves_session *session, ves_end *end, int count)
 {

@@ -111,6 +111,8 @@ bool ves_session_equality(const ves_session *session, int j); /* is constraint j
 bool ves_session_better(const ves_session *session, const ves_verdict *a, const ves_verdict *b);
 bool ves_session_better_at(const ves_session *session, const double *price, const ves_verdict *a,
                            const ves_verdict *b);
+/* Raises the session's prices to what descents [count] have seen of the slopes: the least they agree on. */
+void ves_session_raise(ves_session *session, const double *const *price, int count);
 void ves_session_sort(const ves_session *session, ves_end *end, int count);
 
 /* Adds a sentence (printf format); too many: dropped. Out of memory is a fault of the session. What is told
@@ -163,6 +165,8 @@ void ves_asker_destroy(ves_asker *asker);
 /* The stages. */
 ves_status ves_search_begin(ves_session *session); /* measures the start, or finds one that can be measured */
 ves_status ves_anneal_run(ves_session *session, const ves_anneal *options, long budget);
+ves_status ves_portfolio_run(ves_session *session, const ves_auto *options, long budget);
+bool ves_strategy_known(const char *name);
 ves_status ves_polish_run(ves_session *session, const ves_polish *options, long budget);
 
 /* Distinct ends, and the result. */

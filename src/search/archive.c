@@ -1,0 +1,85 @@
+#include "search/archive.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double near = 1e-3; /* of the ranges: the same optimum */
+
+bool ves_archive_create(ves_archive *archive, ves_session *session)
+{
+    *archive = (ves_archive){.session = session};
+    archive->end = ves_session_ends(session, VES_ARCHIVE_ROOM + 1);
+    return archive->end;
+}
+
+bool ves_archive_near(const ves_archive *archive, const ves_point *a, const ves_point *b)
+{
+    for (int i = 0; i < archive->session->n; i++)
+        if (!(fabs(a->u[i] - b->u[i]) <= near)) return false;
+    return true;
+}
+
+static int place_of(const ves_archive *archive, const ves_point *point)
+{
+    for (int k = 0; k < archive->count; k++)
+        if (ves_archive_near(archive, &archive->end[k].point, point)) return k;
+    return -1;
+}
+
+static void exchange(ves_archive *archive, int a, int b)
+{
+    ves_end end = archive->end[a];
+    archive->end[a] = archive->end[b];
+    archive->end[b] = end;
+    if (b == VES_ARCHIVE_ROOM) return;
+    long hits = archive->hits[a], blind = archive->blind_hits[a];
+    archive->hits[a] = archive->hits[b];
+    archive->hits[b] = hits;
+    archive->blind_hits[a] = archive->blind_hits[b];
+    archive->blind_hits[b] = blind;
+}
+
+static int rise(ves_archive *archive, int k)
+{
+    for (; k && ves_session_better(archive->session, &archive->end[k].point.verdict,
+                                   &archive->end[k - 1].point.verdict);
+         k--)
+        exchange(archive, k - 1, k);
+    return k;
+}
+
+int ves_archive_add(ves_archive *archive, const ves_point *point, bool blind)
+{
+    const ves_session *session = archive->session;
+    archive->met++;
+    archive->blind += blind;
+    if (point->verdict.status != VES_OK) return -1;
+    int k = place_of(archive, point);
+    if (k < 0) {
+        archive->kinds += blind;
+        bool full = archive->count == VES_ARCHIVE_ROOM;
+        k = full ? archive->count - 1 : archive->count++;
+        if (full && !ves_session_better(session, &point->verdict, &archive->end[k].point.verdict)) return -1;
+        archive->hits[k] = archive->blind_hits[k] = 0;
+        archive->end[k].saddle = archive->end[k].pass = archive->end[k].stalled = false;
+        ves_point_copy(&archive->end[k].point, point, session->n, session->m);
+    } else {
+        if (blind && !archive->blind_hits[k]) archive->kinds++;
+        if (ves_session_better(session, &point->verdict, &archive->end[k].point.verdict))
+            ves_point_copy(&archive->end[k].point, point, session->n, session->m);
+    }
+    archive->hits[k]++;
+    archive->blind_hits[k] += blind;
+    return rise(archive, k);
+}
+
+void ves_archive_drop(ves_archive *archive, int k)
+{
+    for (int j = k; j + 1 < archive->count; j++) exchange(archive, j, j + 1);
+    archive->count--;
+}
+
+void ves_archive_sort(ves_archive *archive)
+{
+    for (int k = 1; k < archive->count; k++) rise(archive, k);
+}

@@ -1,0 +1,284 @@
+#include <math.h>
+#include <string.h>
+
+#include "search/descent.h"
+#include "search/spread.h"
+#include "search/strategy/strategy.h"
+
+/* The portfolio: strategies that take turns, each with a share of the evaluations that follows its progress.
+ * Every one is paused, never thrown away, so that none loses what it has learned. */
+
+enum { MEMBERS = 4, SLICE = 16 };
+
+typedef struct member {
+    const ves_strategy *strategy;
+    void *state;
+    double base, share; /* of the evaluations: at first, and now */
+    double used;        /* cost so far: a gradient costs as much as two evaluations */
+    long evaluations;
+    bool done;
+    int bests; /* how often it has found a new one */
+} member;
+
+typedef struct portfolio {
+    ves_session *session;
+    ves_team team;
+    int members;
+    member member[MEMBERS];
+    long budget, before;
+    ves_polish exact;
+    ves_descent descent; /* from each new best */
+    ves_asker *asker;
+    ves_point refined; /* where it began last, or ended when that is the best */
+    bool unfinished;   /* it had not converged */
+    long proofs;       /* that may still be asked for */
+    const char *only;  /* the one member, or NULL */
+} portfolio;
+
+bool ves_team_take(ves_team *team, const ves_point *point)
+{
+    const ves_session *session = team->session;
+    if (!ves_session_better(session, &point->verdict, &team->best.verdict)) return false;
+    ves_point_copy(&team->best, point, session->n, session->m);
+    return true;
+}
+
+static bool add(portfolio *p, const ves_strategy *strategy, double share)
+{
+    bool chosen = p->only ? !strcmp(p->only, strategy->name) : !strategy->fits || strategy->fits(p->session);
+    if (!chosen) return true;
+    member *m = &p->member[p->members];
+    uint32_t stream = (uint32_t)p->session->stage_index << 20 | (uint32_t)(p->members + 1) << 16;
+    *m = (member){.strategy = strategy, .base = share, .share = share};
+    m->state = strategy->create(&p->team, stream);
+    p->members += m->state != NULL;
+    return m->state;
+}
+
+static bool create(portfolio *p)
+{
+    ves_session *session = p->session;
+    p->team = (ves_team){.session = session, .weight = 1};
+    if (!ves_archive_create(&p->team.archive, session)) return false;
+    if (!ves_point_create(&session->arena, session->n, session->m, &p->team.best)) return false;
+    if (!ves_point_create(&session->arena, session->n, session->m, &p->refined)) return false;
+    p->exact = (ves_polish){.algorithm = ves_search_algorithm(session->problem, &p->exact),
+                            .x_tolerance = 1e-10,
+                            .f_tolerance = 1e-15};
+    if (!ves_descent_create(&p->descent, session, 0, &p->exact, 0)) return false;
+    p->descent.runs = 2;
+    p->asker = &p->descent.asker;
+    for (int k = 0; k < session->ends; k++) {
+        ves_archive_add(&p->team.archive, &session->end[k].point, false);
+        ves_team_take(&p->team, &session->end[k].point);
+    }
+    bool gradients = session->problem->gradients;
+    return add(p, &ves_strategy_hop, gradients ? 0.5 : 0.3) &&
+           add(p, &ves_strategy_cma, gradients ? 0.3 : 0.5) && add(p, &ves_strategy_lines, 0.15);
+}
+
+static long left(const portfolio *p)
+{
+    long own = p->budget - (p->session->evaluations - p->before), all = ves_session_left(p->session);
+    return own < all ? own : all;
+}
+
+/* When its next round is due, in cost of all. */
+static double due(const member *m)
+{
+    return (m->used + (double)m->strategy->least(m->state)) / m->share;
+}
+
+/* Who is furthest behind its share, of those whose next round the budget allows. */
+static member *next(portfolio *p)
+{
+    member *chosen = NULL;
+    for (int k = 0; k < p->members; k++) {
+        member *m = &p->member[k];
+        if (m->done || m->strategy->least(m->state) > left(p)) continue;
+        if (!chosen || due(m) < due(chosen)) chosen = m;
+    }
+    return chosen;
+}
+
+static void descend(void *data, int worker, int index)
+{
+    portfolio *p = data;
+    (void)index;
+    p->descent.asker.worker = worker;
+    (void)ves_descent_run(&p->descent, &p->refined, &p->refined);
+}
+
+/* Strategies come near; from each new best a descent goes to the end. */
+static ves_status refine(portfolio *p)
+{
+    ves_session *session = p->session;
+    const ves_point *best = &p->team.best;
+    long n = session->n, cost = session->problem->gradients ? 200 + 40 * n : 400 + 200 * n;
+    if (best->verdict.status != VES_OK || left(p) < 4 * (n + 2)) return VES_OK;
+    bool same = !memcmp(best->u, p->refined.u, (size_t)n * sizeof(double));
+    if (same && !p->unfinished) return VES_OK;
+    ves_point_copy(&p->refined, best, session->n, session->m);
+    p->descent.used = 0;
+    p->descent.budget = cost < left(p) ? cost : left(p);
+    VES_TRY(ves_session_round(session, &p->asker, 1, descend, p));
+    bool lower = ves_session_better(session, &p->refined.verdict, &best->verdict);
+    p->unfinished = lower && ves_descent_spent(&p->descent);
+    ves_archive_add(&p->team.archive, &p->refined, false);
+    if (!ves_team_take(&p->team, &p->refined)) ves_point_copy(&p->refined, best, session->n, session->m);
+    return VES_OK;
+}
+
+/* The best that has not been refused. Bests are proved when they have lasted for a turn: a proof may cost as much
+ * as a thousand candidates. */
+static ves_status prove(portfolio *p)
+{
+    ves_session *session = p->session;
+    ves_archive *archive = &p->team.archive;
+    ves_point *point[VES_ARCHIVE_ROOM];
+    bool refused[VES_ARCHIVE_ROOM], any = false;
+    for (int k = 0; k < archive->count; k++) point[k] = &archive->end[k].point;
+    long before = session->evaluations, most = p->proofs < VES_PROOFS_ROUND ? p->proofs : VES_PROOFS_ROUND;
+    VES_TRY(ves_session_offer(session, point, archive->count, most, refused));
+    p->proofs -= session->evaluations - before;
+    for (int k = archive->count - 1; k >= 0; k--)
+        if (refused[k]) ves_archive_drop(archive, k), any = true;
+    if (!any) return VES_OK;
+    const ves_point *best = archive->count ? &archive->end[0].point : &session->best;
+    ves_point_copy(&p->team.best, best, session->n, session->m);
+    for (int k = 0; k < p->members; k++)
+        if (p->member[k].strategy->refused) p->member[k].strategy->refused(p->member[k].state);
+    return VES_OK;
+}
+
+static ves_status turn(portfolio *p, member *m)
+{
+    ves_session *session = p->session;
+    long slice = (session->evaluations - p->before) / SLICE, least = m->strategy->least(m->state);
+    if (slice < least) slice = least;
+    long evaluations = session->evaluations, gradients = session->gradients;
+    const ves_verdict was = p->team.best.verdict;
+    session->stage_name = m->strategy->name;
+    VES_TRY(m->strategy->advance(m->state, slice, left(p)));
+    bool gained = ves_session_better(session, &p->team.best.verdict, &was);
+    if (!gained && !ves_session_over(session)) VES_TRY(refine(p));
+    if (!gained && p->proofs > 1 && !ves_session_over(session)) VES_TRY(prove(p));
+    evaluations = session->evaluations - evaluations;
+    gradients = session->gradients - gradients;
+    m->evaluations += evaluations;
+    m->used += (double)evaluations + 2 * (double)gradients;
+    if (!evaluations) m->done = true;
+    m->bests += gained;
+    m->share = gained ? fmin(4 * m->base, 2 * m->share) : fmax(m->base, 0.8 * m->share);
+    ves_session_progress(session);
+    return VES_OK;
+}
+
+static ves_status finish(portfolio *p)
+{
+    ves_session *session = p->session;
+    ves_archive *archive = &p->team.archive;
+    if (!ves_session_over(session))
+        ves_session_stop(session, VES_ENDED_BUDGET, "auto: its budget of %ld evaluations is spent",
+                         p->budget);
+    if (!ves_session_over(session) && !archive->blind)
+        ves_session_note(session,
+                         "the budget of %ld evaluations was too short to descend from more than the start",
+                         p->budget);
+    session->end = archive->end;
+    session->ends = archive->count;
+    return VES_OK;
+}
+
+/* --- a look round --- */
+
+enum { LOOKERS = 8, LOOKS_MOST = 16 };
+
+/* What the strategies that need one number pay for a violation has to come from the data. */
+typedef struct look {
+    ves_session *session;
+    ves_asker asker[LOOKERS];
+    ves_point trial[LOOKERS], best[LOOKERS];
+    int looks; /* of each */
+    double value[LOOKERS * LOOKS_MOST], violation[LOOKERS * LOOKS_MOST];
+} look;
+
+static void look_about(void *data, int worker, int index)
+{
+    look *l = data;
+    ves_session *session = l->session;
+    ves_asker *asker = &l->asker[index];
+    ves_point *trial = &l->trial[index];
+    asker->worker = worker;
+    for (int k = 0; k < l->looks; k++) {
+        int at = index * l->looks + k;
+        ves_random random = {
+            .seed = session->seed, .chain = (uint32_t)session->stage_index << 20, .step = (uint64_t)at};
+        for (int i = 0; i < session->n; i++) trial->u[i] = ves_random_uniform(&random);
+        ves_point_place(session->problem, trial->u, trial->x);
+        ves_ask ask = {.x = trial->x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+        l->value[at] = l->violation[at] = NAN;
+        if (ves_asker_judge(asker, &ask, &trial->verdict) != VES_OK) return;
+        bool better = ves_verdict_better(&trial->verdict, &l->best[index].verdict, session->tolerance);
+        ves_asker_record(asker, false, NAN, better);
+        if (better) ves_point_copy(&l->best[index], trial, session->n, session->m);
+        if (trial->verdict.status != VES_OK) continue;
+        l->value[at] = trial->verdict.value;
+        l->violation[at] = trial->verdict.violation;
+    }
+}
+
+/* Weight: a violation as large as the middle one of random points costs two spreads of the value. */
+static ves_status look_round(portfolio *p)
+{
+    ves_session *session = p->session;
+    look *l = ves_arena_take(&session->arena, 1, sizeof *l);
+    if (!l) return VES_MEMORY;
+    l->session = session;
+    l->looks = 2 + session->n / 4;
+    if (l->looks > LOOKS_MOST) l->looks = LOOKS_MOST;
+    if (LOOKERS * l->looks > left(p) / 4) return VES_OK;
+    ves_asker *asker[LOOKERS];
+    for (int k = 0; k < LOOKERS; k++) {
+        ves_asker_init(&l->asker[k], session, k);
+        asker[k] = &l->asker[k];
+        if (!ves_point_create(&session->arena, session->n, session->m, &l->trial[k])) return VES_MEMORY;
+        if (!ves_point_create(&session->arena, session->n, session->m, &l->best[k])) return VES_MEMORY;
+    }
+    ves_status status = ves_session_round(session, asker, LOOKERS, look_about, l);
+    for (int k = 0; k < LOOKERS; k++) {
+        ves_team_take(&p->team, &l->best[k]);
+        ves_asker_destroy(&l->asker[k]);
+    }
+    double width = ves_spread(l->value, LOOKERS * l->looks);
+    double typical = ves_median_above(l->violation, LOOKERS * l->looks, session->tolerance);
+    p->team.weight = 2 * (width > 0 ? width : 1) / (typical > 0 ? typical : session->usual);
+    return status;
+}
+
+bool ves_strategy_known(const char *name)
+{
+    static const ves_strategy *const all[] = {&ves_strategy_hop, &ves_strategy_lines, &ves_strategy_cma};
+    for (int k = 0; k < 3; k++)
+        if (!strcmp(name, all[k]->name)) return true;
+    return false;
+}
+
+ves_status ves_portfolio_run(ves_session *session, const ves_auto *options, long budget)
+{
+    portfolio p = {
+        .session = session, .only = options->only, .budget = budget, .before = session->evaluations};
+    p.proofs = budget / 10 < VES_PROOFS ? budget / 10 : VES_PROOFS;
+    ves_status status = create(&p) ? VES_OK : VES_MEMORY;
+    if (status == VES_OK && session->m) status = look_round(&p);
+    while (status == VES_OK && !ves_session_over(session)) {
+        member *m = next(&p);
+        if (!m) break;
+        status = turn(&p, m);
+    }
+    if (status == VES_OK) status = finish(&p);
+    ves_descent_destroy(&p.descent);
+    for (int k = 0; k < p.members; k++)
+        if (p.member[k].strategy->destroy) p.member[k].strategy->destroy(p.member[k].state);
+    return status;
+}

@@ -1,0 +1,33 @@
+/* Strategies: ways to search that can be paused after any round and gone on with later. One file each; the
+ * file's name is the descriptor's. A portfolio shares a budget out among them. */
+#ifndef VES_SEARCH_STRATEGY_H
+#define VES_SEARCH_STRATEGY_H
+
+#include "search/archive.h"
+
+/* What strategies that work together know of each other. */
+typedef struct ves_team {
+    ves_session *session;
+    ves_archive archive;
+    ves_point best; /* of all; failed while there is none */
+    double weight;  /* penalty per unit of violation, for those that need one number */
+} ves_team;
+
+typedef struct ves_strategy {
+    const char *name, *about;
+    bool (*fits)(const ves_session *session); /* NULL: any problem */
+    /* Its random numbers are those of chains stream, stream + 1 ... stream + 255. NULL: out of memory. */
+    void *(*create)(ves_team *team, uint32_t stream);
+    long (*least)(const void *state); /* evaluations that its next round needs */
+    /* Goes on by whole rounds until about `some` more evaluations were made, and never more than `most`. */
+    ves_status (*advance)(void *state, long some, long most);
+    void (*refused)(void *state); /* its last best did not pass the proof; NULL: it does not mind */
+    void (*destroy)(void *state); /* what is not in the arena; NULL: nothing */
+} ves_strategy;
+
+extern const ves_strategy ves_strategy_hop, ves_strategy_lines, ves_strategy_cma;
+
+/* Takes a measured point that may be the team's best. Returns whether it is. */
+bool ves_team_take(ves_team *team, const ves_point *point);
+
+#endif
