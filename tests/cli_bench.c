@@ -38,6 +38,7 @@ Test(cli_bench, the_same_bytes_for_any_number_of_jobs)
            "one");
     expect(vesica(NULL, "bench s.yaml --jobs 3 --out three"), 0, "sphere 3", NULL, "three");
     same_file("one/runs.jsonl", "three/runs.jsonl");
+    same_file("one/report.json", "three/report.json");
     for (int k = 0; k < 54; k++) {
         char a[64], b[64];
         snprintf(a, sizeof a, "one/journals/%05d.jsonl", k);
@@ -65,6 +66,7 @@ Test(cli_bench, goes_on_where_it_was_broken_off, .timeout = 120)
         free(text);
         expect(vesica(NULL, "bench --resume part --jobs 2"), 0, NULL, "runs are there already", "resumed");
         same_file("whole/runs.jsonl", "part/runs.jsonl");
+        same_file("whole/report.json", "part/report.json");
     }
     expect(vesica(NULL, "bench --resume part --add nm={nlopt:LN_NELDERMEAD}"), 2, NULL, "nlopt:LN_NELDERMEAD",
            "no blank");
@@ -103,6 +105,17 @@ Test(cli_bench, shapes_are_measured_against_the_best_of_all)
                "budget: {per_dimension: 100}\nmethods: {auto: {search: auto}, cobyla: {nlopt: LN_COBYLA}}\n");
     expect(vesica(NULL, "bench s.yaml --out b"), 0, "can", NULL, "shapes");
     cr_expect(count_of("b/runs.jsonl", "\"end\":\"budget\"") == 4);
+    expect(vesica(NULL, "bench --resume b"), 0, "optima of can", "4 of 4 runs", "again");
+    expect(vesica(NULL, "bench --resume b"), 0, "best of all runs: ", NULL, "again");
+    outcome o = vesica(NULL, "bench --resume b --json");
+    json j = json_of(o.out);
+    cr_expect(number(&j, "done", NULL) == 4 && number(&j, "runs", NULL) == 4);
+    /* the volume of the best can of area 3 pi, negative because it is a maximum */
+    const ves_node *problem = ves_node_find(j.root, "problems")->item[0];
+    double best = strtod(ves_node_find(problem, "reference")->text, NULL);
+    cr_expect(fabs(best + 3.14159265358979 / sqrt(2)) < 1e-4, "got %.9g", best);
+    json_done(&j);
+    done(&o);
     root_remove();
 }
 

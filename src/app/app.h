@@ -23,7 +23,7 @@ typedef struct app_options {
     int sets, plugins;
     ves_override set[APP_SETS];
     const char *plugin[APP_PLUGINS + 1]; /* ends with NULL */
-    bool seeded, json, test, no_files, reference, viewed, spines, help;
+    bool seeded, json, test, no_files, reference, viewed, spines, suite, help;
     uint64_t seed;
     long evaluations;
     int jobs, spine, grid[2];

@@ -3,7 +3,7 @@
 
 #include "app/screen_bench.h"
 #include "problem/suite.h"
-#include "study/folder.h"
+#include "study/bench_json.h"
 
 typedef struct listener {
     app *a;
@@ -88,6 +88,14 @@ static ves_status begin(app *a, const ves_bench_options *options, const ves_benc
     return ves_bench_run(suite, options, hooks, bench, a->diag);
 }
 
+static void json_print(const ves_bench *bench)
+{
+    ves_json json = {.out = stdout};
+    ves_json_object(&json, NULL);
+    ves_bench_json(bench, true, &json);
+    ves_json_end(&json, '}');
+}
+
 int app_bench(app *a)
 {
     const app_options *o = &a->options;
@@ -98,10 +106,10 @@ int app_bench(app *a)
     app_interrupt_listen();
     ves_status status = (o->folder ? resume : begin)(a, &options, &hooks, &bench);
     app_say(a);
-    if (bench) {
+    if (bench && o->json)
+        json_print(bench);
+    else if (bench)
         app_screen_bench(bench, stdout);
-        if (bench->folder) printf("  %s/\n", bench->folder);
-    }
     ves_bench_destroy(bench);
     return status == VES_INTERRUPTED ? APP_INTERRUPTED : app_code(status);
 }

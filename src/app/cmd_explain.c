@@ -21,6 +21,7 @@ static int text_print(app *a, const char *text)
 
 int app_schema(app *a)
 {
+    if (a->options.suite) return text_print(a, ves_schema_suite_json(&a->arena));
     return text_print(a, a->options.reference ? ves_schema_reference(&a->arena, a->measure)
                                               : ves_schema_json(&a->arena, a->measure));
 }

@@ -7,7 +7,7 @@ const app_command app_commands[] = {
      PROBLEM "|seed|evaluations|jobs|out|progress|trace|test|no-files", app_run, NULL},
     {"bench", "bench SUITE | bench --resume DIR",
      "compare searches on the problems of a suite file; all runs go into a numbered folder under runs/", 0, 1,
-     "set|resume|add|jobs|out|progress|no-files", app_bench,
+     "set|resume|add|jobs|out|progress|no-files|json", app_bench,
      "bench/suites/ has suites to begin with; docs/benchmark.md tells what is printed, and how a program of "
      "your "
      "own\n"
@@ -36,7 +36,7 @@ const app_command app_commands[] = {
     {"list", "list THINGS",
      "what problem files and suites may use: measures, curves ...; alone: which things", 0, 1, "plugin|json",
      app_list, NULL},
-    {"schema", "schema", "the JSON Schema of problem files, for editors", 0, 0, "plugin|reference",
+    {"schema", "schema", "the JSON Schema of problem files, for editors", 0, 0, "plugin|reference|suite",
      app_schema, NULL},
     {"explain", "explain WORD",
      "what a word means: a key, measure, function, unit, format, or why a candidate failed", 1, 1, "plugin",

@@ -173,6 +173,7 @@ FLAG(test)
 FLAG(no_files)
 FLAG(reference)
 FLAG(spines)
+FLAG(suite)
 FLAG(help)
 #undef FLAG
 
@@ -201,6 +202,7 @@ static const option table[] = {
     {"colour", "patch|H|K|k1|k2", "what the colours show: patches, or the mean (H, unless said), Gauss, largest or least curvature", take_colour},
     {"view", "AZIMUTH,HEIGHT", "where the viewer stands, in degrees", take_view},
     {"reference", NULL, "the reference chapter of the manual instead, in Markdown", take_reference},
+    {"suite", NULL, "of suite files (vesica bench)", take_suite},
     {"help", NULL, "this text", take_help},
     {"resume", "DIR", "go on in the folder of a benchmark: runs that are done are not done again", take_folder},
     {"add", "NAME={...}", "with --resume: one more method, as under `methods`", take_add},

@@ -294,4 +294,5 @@ void app_screen_bench(const ves_bench *bench, FILE *out)
     totals(bench, out);
     pairs(bench, out);
     verdict(bench, out);
+    if (bench->folder) fprintf(out, "\n  %s/\n", bench->folder);
 }

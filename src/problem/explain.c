@@ -113,6 +113,9 @@ static void entry_help(help *h, const ves_entry *entry, const char *path)
         if ((int)e->key.kind != VES_LATER) key_line(w, &e->key);
 }
 
+/* The stages of a search once more, in a suite. */
+static const char suite_stages[] = "suite.methods.search.";
+
 static void walk(help *h, const ves_entry *table, const char *path)
 {
     for (const ves_entry *e = table; e && e->key.name; e++) {
@@ -124,7 +127,8 @@ static void walk(help *h, const ves_entry *table, const char *path)
         h->writer.failed = h->writer.failed || w.failed;
         ves_memory_free(w.text);
         is_word(h, e->key.name);
-        bool again = !strncmp(inner, "test.", 5) && strncmp(h->word, "test", 4); /* as without it */
+        bool again = (!strncmp(inner, "test.", 5) && strncmp(h->word, "test", 4)) || /* as without it */
+                     (!strncmp(inner, suite_stages, strlen(suite_stages)) && strncmp(h->word, "suite", 5));
         bool choice = e->key.kind == VES_CHOICE && ves_words_find(e->key.words, h->word) >= 0;
         if ((choice || is_path(h->word, inner)) && !(again && h->found)) entry_help(h, e, inner);
         if (*path && h->parent && is_path(h->parent, path) && !again) key_name(h, e->key.name);
@@ -321,6 +325,7 @@ char *ves_schema_explain(ves_arena *arena, const char *word, const ves_measure *
     h->parent = dot && dot > word ? ves_arena_text(arena, word, (size_t)(dot - word)) : NULL;
     h->plugin = plugin;
     walk(h, ves_schema_root.table, "");
+    walk(h, ves_schema_suite.table, "suite");
     curve_help(h);
     measure_help(h);
     algorithm_help(h);

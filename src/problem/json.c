@@ -334,12 +334,24 @@ static void entry(ves_writer *w, const ves_entry *e, const ves_measure *const *p
     ves_write(w, "}");
 }
 
-char *ves_schema_json(ves_arena *arena, const ves_measure *const *plugin)
+static char *whole(ves_arena *arena, const ves_entry *root, const ves_measure *const *plugin)
 {
     ves_writer w = {0};
-    ves_write(&w, "{\"$schema\":\"http://json-schema.org/draft-07/schema#\",\"title\":\"vesica problem file, "
-                  "format 1\",");
-    properties(&w, ves_schema_root.table, plugin);
+    ves_write(&w,
+              "{\"$schema\":\"http://json-schema.org/draft-07/schema#\",\"title\":\"vesica %s file, "
+              "format 1\",",
+              root->key.name);
+    properties(&w, root->table, plugin);
     ves_write(&w, "}\n");
     return ves_writer_finish(&w, arena);
+}
+
+char *ves_schema_json(ves_arena *arena, const ves_measure *const *plugin)
+{
+    return whole(arena, &ves_schema_root, plugin);
+}
+
+char *ves_schema_suite_json(ves_arena *arena)
+{
+    return whole(arena, &ves_schema_suite, NULL);
 }

@@ -200,6 +200,9 @@ char *ves_schema_reference(ves_arena *arena, const ves_measure *const *plugin)
     measures(&w, plugin);
     searches(&w);
     units(&w);
+    ves_write(&w, "\n## Suites\n\nThe keys of a suite file, which `vesica bench` runs "
+                  "([benchmark.md](benchmark.md)).\n");
+    for (const ves_entry *e = ves_schema_suite.table; e->key.name; e++) section(&w, e);
     ves_write(&w, "\n## Words kept for later versions\n\n");
     later(&w, ves_schema_root.table);
     return ves_writer_finish(&w, arena);

@@ -7,6 +7,7 @@
 #include "base/diag.h"
 #include "base/pool.h"
 #include "problem/suite.h"
+#include "study/bench_charts.h"
 #include "study/bench_folder.h"
 #include "study/folder.h"
 #include "study/optima.h"
@@ -155,15 +156,17 @@ static ves_status count_up(bench *b)
     ves_bench *shown = &b->shown;
     int bouts = shown->suite->bouts, *n = ves_arena_take(&b->arena, (size_t)bouts, sizeof *n);
     double *optimum = ves_arena_take(&b->arena, (size_t)bouts, sizeof *optimum);
-    if (!n || !optimum) return VES_MEMORY;
+    if (!n || !optimum) return ves_diag_fail(b->diag, VES_MEMORY);
     for (int k = 0; k < bouts; k++) n[k] = shown->bout[k].n, optimum[k] = shown->bout[k].optimum;
     const ves_tally_input input = {
         .suite = shown->suite, .outcome = shown->outcome, .optimum = optimum, .n = n};
-    if (!ves_tally_init(&input, &shown->tally)) return VES_MEMORY;
-    for (int k = 0; k < bouts; k++)
-        if (shown->suite->bout[k].kind != VES_BOUT_LANDSCAPE)
-            VES_TRY(ves_optima_find(&b->ring[k], k, shown, &b->arena));
-    return VES_OK;
+    if (!ves_tally_init(&input, &shown->tally)) return ves_diag_fail(b->diag, VES_MEMORY);
+    for (int k = 0; k < bouts; k++) {
+        if (shown->suite->bout[k].kind == VES_BOUT_LANDSCAPE) continue;
+        ves_status status = ves_optima_find(&b->ring[k], k, shown, &b->arena);
+        if (status != VES_OK) return ves_diag_fail(b->diag, status);
+    }
+    return b->files.folder ? ves_bench_charts_write(shown, &input, b->diag) : VES_OK;
 }
 
 static ves_status all_run(bench *b)
@@ -180,8 +183,10 @@ static ves_status all_run(bench *b)
         if (status == VES_MEMORY) ves_diag_fail(b->diag, status);
     }
     ves_pool_destroy(b->pool);
-    if ((status == VES_OK || status == VES_INTERRUPTED) && count_up(b) != VES_OK)
-        status = ves_diag_fail(b->diag, VES_MEMORY);
+    if (status == VES_OK || status == VES_INTERRUPTED) {
+        ves_status counted = count_up(b);
+        if (counted != VES_OK) status = counted;
+    }
     for (int k = 0; b->ring && k < b->shown.suite->bouts; k++) ves_ring_close(&b->ring[k]);
     return status;
 }
@@ -214,6 +219,8 @@ static ves_status finish(bench *b, ves_status status, ves_bench **out)
     if (status == VES_OK) status = all_run(b);
     b->shown.wall = ves_study_clock() - begin;
     ves_status closed = ves_bench_files_end(&b->files);
+    if (closed == VES_OK && b->files.folder && b->shown.tally.score)
+        closed = ves_bench_report_write(&b->shown, b->diag);
     if (status == VES_OK) status = closed;
     if (b->shown.tally.score && b->shown.done > 0)
         *out = &b->shown;

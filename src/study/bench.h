@@ -2,7 +2,8 @@
  *
  *     suite.yaml      the suite as run        bench.json   where it was, which vesica ran it
  *     runs.jsonl      one line a run, in the order of the suite, whatever the number of threads
- *     times.jsonl     what clocks say of each
+ *     times.jsonl     what clocks say of each        report.json  what they come to
+ *     ecdf.png, profile-*.png, convergence/PROBLEM.png
  *     journals/NNNNN.jsonl   the improvements of run NNNNN: [cost, value, violation] */
 #ifndef VES_STUDY_BENCH_H
 #define VES_STUDY_BENCH_H

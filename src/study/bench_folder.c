@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "output/file.h"
 #include "output/output.h"
-#include "problem/problem.h"
+#include "study/bench_json.h"
 #include "study/folder.h"
 #include "study/open.h"
 
@@ -126,6 +126,23 @@ ves_status ves_bench_suite_write(const char *folder, const ves_suite *suite, ves
     if (status == VES_OK) status = ves_file_begin(&file, path, "json", diag);
     if (status == VES_OK) {
         about_write(file.out, suite);
+        status = ves_file_end(&file, VES_OK, diag);
+    }
+    ves_arena_destroy(&arena);
+    return status;
+}
+
+ves_status ves_bench_report_write(const ves_bench *bench, ves_diag *diag)
+{
+    ves_arena arena = {0};
+    ves_file file;
+    char *path = ves_folder_path(bench->folder, "report.json", &arena);
+    ves_status status = path ? ves_file_begin(&file, path, "json", diag) : ves_diag_fail(diag, VES_MEMORY);
+    if (status == VES_OK) {
+        ves_json json = {.out = file.out};
+        ves_json_object(&json, NULL);
+        ves_bench_json(bench, false, &json);
+        ves_json_end(&json, '}');
         status = ves_file_end(&file, VES_OK, diag);
     }
     ves_arena_destroy(&arena);

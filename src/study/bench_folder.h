@@ -27,6 +27,9 @@ ves_status ves_bench_journal_write(const char *folder, int index, const ves_outc
 ves_status ves_bench_line_write(ves_bench_files *files, const ves_suite *suite, int index,
                                 const ves_outcome *outcome);
 
+/* What the runs came to: report.json. */
+ves_status ves_bench_report_write(const ves_bench *bench, ves_diag *diag);
+
 /* Rewrites suite.yaml and bench.json, when something was added. */
 ves_status ves_bench_suite_write(const char *folder, const ves_suite *suite, ves_diag *diag);
 /* What a folder says of its suite: where it was, its text, and its methods in the order of the runs. */

@@ -1,0 +1,34 @@
+/* Charts: lines over an axis, with what is written around them. */
+#ifndef VES_OUTPUT_CHART_H
+#define VES_OUTPUT_CHART_H
+
+#include <stdbool.h>
+
+#include "vesica/diag.h"
+
+typedef struct ves_chart_line {
+    const char *name;
+    int count;
+    const double *x, *y;      /* [count]; points that are no finite numbers break the line */
+    const double *low, *high; /* [count] a band about it, or NULL */
+    bool stairs;              /* y holds from its x on */
+} ves_chart_line;
+
+/* An axis: what it shows, from where to where; logarithmic: both ends > 0. */
+typedef struct ves_chart_axis {
+    const char *label;
+    double low, high;
+    bool logarithmic;
+} ves_chart_axis;
+
+typedef struct ves_chart {
+    const char *title;
+    ves_chart_axis x, y;
+    int lines;
+    const ves_chart_line *line;
+} ves_chart;
+
+/* PNG, SVG or PDF, by the ending. */
+ves_status ves_chart_write(const ves_chart *chart, const char *path, ves_diag *diag);
+
+#endif

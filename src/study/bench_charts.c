@@ -1,0 +1,153 @@
+#include "study/bench_charts.h"
+
+#include <ctype.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "output/chart.h"
+#include "study/folder.h"
+#include "suite/profile.h"
+
+enum { NAME = 200 };
+
+static const double least = 1e-10; /* what a convergence chart shows a gap of 0 as */
+
+typedef struct charts {
+    const ves_bench *bench;
+    const ves_tally_input *input;
+    ves_arena arena;
+    ves_diag *diag;
+    int room;             /* points of a line */
+    ves_chart_line *line; /* [entrants] */
+    double *x, *y;        /* [entrants][room] */
+} charts;
+
+static ves_status write(charts *c, const ves_chart *chart, const char *name)
+{
+    char *path = ves_folder_path(c->bench->folder, name, &c->arena);
+    return path ? ves_chart_write(chart, path, c->diag) : ves_diag_fail(c->diag, VES_MEMORY);
+}
+
+/* Stairs go from 0 at the left end of the axis to the right end. */
+static void line_close(charts *c, int e, int count, const ves_chart_axis *axis)
+{
+    double *x = c->x + (size_t)e * c->room, *y = c->y + (size_t)e * c->room;
+    memmove(x + 1, x, (size_t)count * sizeof *x);
+    memmove(y + 1, y, (size_t)count * sizeof *y);
+    x[0] = axis->low;
+    y[0] = 0;
+    x[count + 1] = axis->high;
+    y[count + 1] = y[count];
+    c->line[e] = (ves_chart_line){
+        .name = c->bench->suite->entrant[e].name, .count = count + 2, .x = x, .y = y, .stairs = true};
+}
+
+/* The largest budget, for each variable or for n + 1. */
+static double right_end(const charts *c, int more)
+{
+    const ves_suite *s = c->bench->suite;
+    double most = 2;
+    for (int p = 0; p < s->bouts; p++)
+        most = fmax(most, ves_suite_budget(s, c->input->n[p]) / (c->input->n[p] + more));
+    return most;
+}
+
+static ves_status ecdf(charts *c)
+{
+    const ves_suite *s = c->bench->suite;
+    ves_chart chart = {.title = s->title,
+                       .x = {"cost units for each variable", 0.1, right_end(c, 0), true},
+                       .y = {"share of (problem, target, run) solved", 0, 1, false},
+                       .lines = s->entrants,
+                       .line = c->line};
+    for (int e = 0; e < s->entrants; e++) {
+        size_t at = (size_t)e * c->room;
+        int count = ves_profile_ecdf(c->input, &c->bench->tally, e, c->x + at, c->y + at);
+        line_close(c, e, count, &chart.x);
+    }
+    return write(c, &chart, "ecdf.png");
+}
+
+static ves_status profile(charts *c, double tau, const char *name)
+{
+    const ves_suite *s = c->bench->suite;
+    char label[NAME];
+    snprintf(label, sizeof label, "share of runs at f <= f_L + %g (f_0 - f_L)", tau);
+    ves_chart chart = {.title = s->title,
+                       .x = {"cost units over (variables + 1)", 0.1, right_end(c, 1), true},
+                       .y = {label, 0, 1, false},
+                       .lines = s->entrants,
+                       .line = c->line};
+    for (int e = 0; e < s->entrants; e++) {
+        size_t at = (size_t)e * c->room;
+        line_close(c, e, ves_profile_data(c->input, e, tau, c->x + at, c->y + at), &chart.x);
+    }
+    return write(c, &chart, name);
+}
+
+/* convergence/rot_rastrigin-10.png */
+static void chart_name(const char *problem, char name[NAME])
+{
+    snprintf(name, NAME, "convergence/%.150s.png", problem);
+    for (char *at = name + strlen("convergence/"); *at; at++)
+        if (!isalnum((unsigned char)*at) && !strchr("._-", *at)) *at = '-';
+}
+
+static ves_status convergence(charts *c, int bout)
+{
+    const ves_suite *s = c->bench->suite;
+    ves_profile_band *band = ves_arena_take(&c->arena, (size_t)s->entrants, sizeof *band);
+    char name[NAME];
+    if (!band) return ves_diag_fail(c->diag, VES_MEMORY);
+    double high = 10 * least, low = INFINITY;
+    for (int e = 0; e < s->entrants; e++) {
+        if (!ves_profile_convergence(c->input, &c->bench->tally, e, bout, least, &band[e]))
+            return ves_diag_fail(c->diag, VES_MEMORY);
+        for (int k = 0; k < VES_PROFILE_POINTS; k++) {
+            if (isfinite(band[e].y[k])) high = fmax(high, band[e].y[k]), low = fmin(low, band[e].y[k]);
+            if (isfinite(band[e].low[k])) low = fmin(low, band[e].low[k]);
+        }
+        c->line[e] = (ves_chart_line){s->entrant[e].name, VES_PROFILE_POINTS, band[e].x, band[e].y,
+                                      band[e].low,        band[e].high,       false};
+    }
+    chart_name(s->bout[bout].name, name);
+    double bottom = pow(10, floor(log10(fmin(low, high / 10)))), top = pow(10, ceil(log10(high)));
+    const ves_chart chart = {
+        .title = s->bout[bout].name,
+        .x = {"cost units", 1, fmax(ves_suite_budget(s, c->input->n[bout]), 2), true},
+        .y = {"best feasible value over the reference: median, quartiles", bottom, top, true},
+        .lines = s->entrants,
+        .line = c->line};
+    return write(c, &chart, name);
+}
+
+static ves_status all(charts *c)
+{
+    static const struct {
+        double tau;
+        const char *name;
+    } profiles[] = {{1e-1, "profile-1e-1.png"}, {1e-3, "profile-1e-3.png"}, {1e-5, "profile-1e-5.png"}};
+    VES_TRY(ecdf(c));
+    for (int k = 0; k < 3; k++) VES_TRY(profile(c, profiles[k].tau, profiles[k].name));
+    char *folder = ves_folder_path(c->bench->folder, "convergence", &c->arena);
+    if (!folder) return ves_diag_fail(c->diag, VES_MEMORY);
+    VES_TRY(ves_folder_open(folder, &c->arena, c->diag));
+    for (int p = 0; p < c->bench->suite->bouts; p++) VES_TRY(convergence(c, p));
+    return VES_OK;
+}
+
+ves_status ves_bench_charts_write(const ves_bench *bench, const ves_tally_input *input, ves_diag *diag)
+{
+    const ves_suite *s = bench->suite;
+    charts c = {.bench = bench, .input = input, .diag = diag};
+    c.room = s->bouts * s->seeds * VES_PROFILE_TARGETS + 2;
+    size_t points = (size_t)c.room * (size_t)s->entrants;
+    c.line = ves_arena_take(&c.arena, (size_t)s->entrants, sizeof *c.line);
+    c.x = ves_arena_take(&c.arena, points, sizeof *c.x);
+    c.y = ves_arena_take(&c.arena, points, sizeof *c.y);
+    ves_status status = c.line && c.x && c.y ? all(&c) : ves_diag_fail(diag, VES_MEMORY);
+    ves_arena_destroy(&c.arena);
+    return status;
+}
