@@ -172,3 +172,61 @@ Test(cli_bench, programs_take_part_and_what_they_do_wrong_is_recorded, .timeout 
               "started again");
     root_remove();
 }
+
+/* The tower: where both constraints hold as equations or the stress alone does, found here by a grid in 1e6 nodes. */
+static double lightest(void)
+{
+    const double pi = 3.14159265358979323846;
+    double best = INFINITY;
+    for (int k = 0; k <= 1000000; k++) {
+        double h = 5 + 45e-6 * k, L = sqrt(h * h + 900), low = 0.5, high = 5;
+        for (int step = 0; step < 60; step++) { /* the thinnest tube that stands; both get easier with d */
+            double d = (low + high) / 2, stress = 30000 * L / (0.2 * h * pi * d);
+            bool stands = stress <= 100000 && stress <= pi * pi * 30e6 * (d * d + 0.01) / (8 * L * L);
+            *(stands ? &high : &low) = d;
+        }
+        if (high < 5) best = fmin(best, 0.06 * pi * high * L);
+    }
+    return best;
+}
+
+Test(cli_bench, an_objective_of_a_plugin, .timeout = 120)
+{
+    root_make();
+    cr_assert(system("cc -std=c17 -shared -fPIC -I" VESICA_SOURCE "/include -o tower.so " VESICA_SOURCE
+                     "/examples/objective/tower.c -lm && cp " VESICA_SOURCE
+                     "/examples/objective/tower.yaml .") == 0);
+    expect(vesica(NULL, "bench tower.yaml --out one --jobs 1"), 0, "optima of tower", NULL, "plugin");
+    expect(vesica(NULL, "bench tower.yaml --out two --jobs 2"), 0, "best of all runs", NULL, "plugin");
+    same_file("one/runs.jsonl", "two/runs.jsonl");
+    outcome o = vesica(NULL, "bench --resume one --json");
+    json j = json_of(o.out);
+    double got = strtod(ves_node_find(ves_node_find(j.root, "problems")->item[0], "reference")->text, NULL);
+    double want = lightest(); /* constraints are met within 1e-6 */
+    cr_expect(fabs(got - want) < 3e-6 * want, "got %.9g, want %.9g", got, want);
+    json_done(&j);
+    done(&o);
+    static const struct {
+        const char *problem, *hint;
+    } faults[] = {{"{plugin: ./none.so}", "cannot load the plugin"},
+                  {"{plugin: ./empty.so}", "no ves_objectives_entry"},
+                  {"{plugin: ./tower.so, objective: towel}", "brings no objective \"towel\""},
+                  {"{plugin: ./old.so}", "interface 99 of objectives"},
+                  {"{plugin: ./odd.so}", "is not whole"}};
+    write_file("old.c", "const struct { int abi; long size; } ves_objectives_entry = {99, 8};\n");
+    write_file("odd.c",
+               "#include <vesica/objective.h>\nstatic const ves_objective odd = {.name = \"odd\", .n = 2};\n"
+               "static const ves_objective *const list[] = {&odd, NULL};\n"
+               "const ves_objectives ves_objectives_entry = {VES_OBJECTIVES, \"odd\", list};\n");
+    cr_assert(system("cc -shared -fPIC -o old.so old.c && cc -shared -fPIC -x c -o empty.so /dev/null && "
+                     "cc -shared -fPIC -I" VESICA_SOURCE "/include -o odd.so odd.c") == 0);
+    for (size_t k = 0; k < sizeof faults / sizeof *faults; k++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "vesica: 1\nsuite: wrong\nproblems: [%s]\nmethods: {auto: {search: auto}}\n",
+                 faults[k].problem);
+        write_file("w.yaml", text);
+        expect(vesica(NULL, "bench w.yaml --no-files"), 2, NULL, faults[k].hint, faults[k].problem);
+    }
+    root_remove();
+}

@@ -9,6 +9,7 @@
 #include "vesica/field.h"
 #include "vesica/figure.h"
 #include "vesica/measure.h"
+#include "vesica/objective.h"
 #include "vesica/plan.h"
 #include "vesica/problem.h"
 #include "vesica/run.h"

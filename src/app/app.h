@@ -6,6 +6,7 @@
 #include "output/output.h"
 #include "study/open.h"
 #include "study/run.h"
+#include "vesica/objective.h"
 
 /* Exit codes: a contract with scripts. */
 enum {
@@ -85,6 +86,8 @@ void app_options_list(const app_command *command, FILE *out);
 
 /* plugin.c */
 ves_status app_plugins_load(app *a);
+/* name NULL: the first that it brings */
+ves_status app_objective_load(app *a, const char *path, const char *name, const ves_objective **objective);
 void app_plugins_close(app *a);
 
 /* interrupt.c: Ctrl-C asks for an end; a second one kills. */

@@ -42,6 +42,11 @@ static bool stopped(void *data)
     return app_interrupt_asked();
 }
 
+static ves_status load(void *data, const char *path, const char *name, const ves_objective **objective)
+{
+    return app_objective_load(((listener *)data)->a, path, name, objective);
+}
+
 /* --add NAME={...} is --set methods.NAME={...}. */
 static bool added(app *a, ves_override *add)
 {
@@ -100,7 +105,8 @@ int app_bench(app *a)
 {
     const app_options *o = &a->options;
     listener l = {.a = a};
-    const ves_bench_hooks hooks = {.begun = begun, .progress = progress, .stopped = stopped, .data = &l};
+    const ves_bench_hooks hooks = {
+        .begun = begun, .progress = progress, .stopped = stopped, .load = load, .data = &l};
     const ves_bench_options options = {.jobs = o->jobs, .out = o->out, .no_files = o->no_files};
     ves_bench *bench = NULL;
     app_interrupt_listen();

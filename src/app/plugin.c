@@ -1,5 +1,6 @@
 /* Plugins: measures from shared objects. */
 #include <dlfcn.h>
+#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -51,16 +52,25 @@ static ves_status check(app *a, const char *path, const ves_plugin *plugin)
     return VES_USAGE;
 }
 
-static ves_status open_one(app *a, const char *path, const ves_plugin **plugin)
+/* NULL: the reason is in diag. */
+static void *load(app *a, const char *path)
 {
     const char *file = as_file(a, path);
-    void *handle = file ? dlopen(file, RTLD_NOW | RTLD_LOCAL) : NULL;
+    void *handle = NULL;
+    if (a->shared < APP_PLUGINS) handle = file ? dlopen(file, RTLD_NOW | RTLD_LOCAL) : NULL;
     if (!handle) {
-        const char *why = dlerror();
+        const char *why = a->shared < APP_PLUGINS ? dlerror() : "too many plugins";
         app_fail(a, VES_USAGE, "cannot load the plugin \"%s\": %s", path, why ? why : "out of memory");
-        return VES_USAGE;
+        return NULL;
     }
     a->handle[a->shared++] = handle;
+    return handle;
+}
+
+static ves_status open_one(app *a, const char *path, const ves_plugin **plugin)
+{
+    void *handle = load(a, path);
+    if (!handle) return VES_USAGE;
     *plugin = dlsym(handle, "ves_plugin_entry");
     if (!*plugin) {
         app_fail(a, VES_USAGE, "\"%s\" is no plugin of vesica: it has no ves_plugin_entry", path);
@@ -118,6 +128,56 @@ ves_status app_plugins_load(app *a)
     }
     for (int k = 0; k < a->options.plugins; k++) VES_TRY(add(a, a->options.plugin[k], plugin[k], &count));
     return VES_OK;
+}
+
+/* --- objectives, for bench --- */
+
+static ves_status check_objectives(app *a, const char *path, const ves_objectives *o)
+{
+    if (o->abi == VES_OBJECTIVE_ABI && o->size == sizeof(ves_objective) && o->name && o->objective &&
+        *o->objective)
+        return VES_OK;
+    app_fail(
+        a, VES_ABSENT,
+        "the plugin \"%s\" was built for interface %d of objectives, %zu bytes each; this is vesica %s with "
+        "interface %d, %zu bytes: build it again with the headers of this one",
+        path, o->abi, o->size, VESICA_VERSION, VES_OBJECTIVE_ABI, sizeof(ves_objective));
+    return VES_ABSENT;
+}
+
+static ves_status check_objective(app *a, const char *path, const ves_objective *o)
+{
+    bool good =
+        o->name && o->n >= 1 && o->m >= 0 && o->lower && o->upper && o->eval && !o->create == !o->destroy;
+    for (int i = 0; good && i < o->n; i++)
+        good = isfinite(o->lower[i]) && isfinite(o->upper[i]) && o->lower[i] < o->upper[i];
+    if (good) return VES_OK;
+    app_fail(a, VES_USAGE,
+             "the objective \"%s\" of the plugin \"%s\" is not whole: it needs variables between finite "
+             "bounds, lower "
+             "< upper, an eval, and create and destroy or neither",
+             o->name ? o->name : "", path);
+    return VES_USAGE;
+}
+
+ves_status app_objective_load(app *a, const char *path, const char *name, const ves_objective **objective)
+{
+    void *handle = load(a, path);
+    if (!handle) return VES_USAGE;
+    const ves_objectives *all = dlsym(handle, "ves_objectives_entry");
+    if (!all) {
+        app_fail(a, VES_USAGE, "\"%s\" brings no objectives: it has no ves_objectives_entry", path);
+        return VES_USAGE;
+    }
+    VES_TRY(check_objectives(a, path, all));
+    for (const ves_objective *const *o = all->objective; *o; o++)
+        if (!name || ((*o)->name && !strcmp((*o)->name, name))) {
+            *objective = *o;
+            return check_objective(a, path, *o);
+        }
+    app_fail(a, VES_NAME, "the plugin \"%s\" brings no objective \"%s\"; its first is \"%s\"", path, name,
+             all->objective[0]->name ? all->objective[0]->name : "");
+    return VES_NAME;
 }
 
 void app_plugins_close(app *a)

@@ -143,7 +143,8 @@ static ves_status rings_open(bench *b)
     b->ring = ves_arena_take(&b->arena, (size_t)suite->bouts, sizeof *b->ring);
     if (!b->ring || !facts) return ves_diag_fail(b->diag, VES_MEMORY);
     for (int k = 0; k < suite->bouts; k++) {
-        VES_TRY(ves_ring_open(&b->ring[k], suite, &suite->bout[k], b->shown.jobs, &b->arena, b->diag));
+        b->ring[k] = (ves_ring){.bout = &suite->bout[k], .hooks = b->hooks, .jobs = b->shown.jobs};
+        VES_TRY(ves_ring_open(&b->ring[k], &b->arena, b->diag));
         facts[k] = b->ring[k].facts;
     }
     b->shown.bout = facts;

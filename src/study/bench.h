@@ -10,6 +10,7 @@
 
 #include "suite/tally.h"
 #include "vesica/diag.h"
+#include "vesica/objective.h"
 
 typedef struct ves_bench ves_bench;
 
@@ -17,6 +18,8 @@ typedef struct ves_bench_hooks {
     void (*begun)(void *data, const ves_bench *bench);              /* before the first run */
     void (*progress)(void *data, const ves_bench *bench, int done); /* after each, one call at a time */
     bool (*stopped)(void *data);                                    /* from any thread */
+    /* Loads an objective of a plugin (name NULL: its first); who fails has told why. It must outlive the bench. */
+    ves_status (*load)(void *data, const char *path, const char *name, const ves_objective **objective);
     void *data;
 } ves_bench_hooks;
 

@@ -88,11 +88,42 @@ static ves_status pose_file(ves_ring *ring, int worker, ves_pose *pose)
     return VES_OK;
 }
 
+/* In its own units: behind evaluate_file, as a problem file is. */
+static ves_status evaluate_plugin(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
+{
+    ves_pose *pose = data;
+    (void)worker;
+    return pose->objective->eval(pose->state, ask->x, ask->want & VES_WANT_GRADIENT, verdict);
+}
+
+static ves_status pose_plugin(ves_ring *ring, int worker, ves_pose *pose)
+{
+    const ves_objective *o = ring->objective;
+    if (o->create && !ring->state[worker]) ring->state[worker] = o->create();
+    if (o->create && !ring->state[worker]) return VES_MEMORY;
+    pose->objective = o;
+    pose->state = ring->state[worker];
+    pose->file = (ves_search_problem){.n = o->n,
+                                      .m = o->m,
+                                      .lower = o->lower,
+                                      .upper = o->upper,
+                                      .equality = o->equality,
+                                      .gradients = o->gradients,
+                                      .evaluate = evaluate_plugin,
+                                      .data = pose};
+    pose->problem = pose->file;
+    pose->problem.evaluate = evaluate_file;
+    pose->optimum = isnan(ring->bout->optimum) ? o->optimum : ring->bout->optimum;
+    return VES_OK;
+}
+
 ves_status ves_ring_pose(ves_ring *ring, int worker, int seed, ves_arena *arena, ves_pose *pose)
 {
     *pose = (ves_pose){.optimum = NAN};
     if (ring->bout->kind == VES_BOUT_LANDSCAPE)
         VES_TRY(pose_instance(ring, seed, arena, pose));
+    else if (ring->bout->kind == VES_BOUT_PLUGIN)
+        VES_TRY(pose_plugin(ring, worker, pose));
     else
         VES_TRY(pose_file(ring, worker, pose));
     size_t n = (size_t)pose->problem.n;
@@ -163,22 +194,33 @@ static ves_status file_open(ves_ring *ring, ves_diag *diag)
     return VES_OK;
 }
 
-ves_status ves_ring_open(ves_ring *ring, const ves_suite *suite, const ves_bout *bout, int jobs,
-                         ves_arena *arena, ves_diag *diag)
+static ves_status plugin_open(ves_ring *ring, ves_diag *diag)
 {
-    *ring = (ves_ring){.suite = suite, .bout = bout, .jobs = jobs};
-    if (bout->kind == VES_BOUT_PLUGIN)
-        return ves_diag_add(diag, VES_ERROR, VES_ABSENT, bout->mark, "objectives of plugins are not run yet");
-    ring->plan = ves_arena_take(arena, (size_t)jobs, sizeof(ves_plan *));
-    if (!ring->plan) return ves_diag_fail(diag, VES_MEMORY);
-    if (bout->kind == VES_BOUT_FILE) VES_TRY(file_open(ring, diag));
+    const ves_bout *bout = ring->bout;
+    if (!ring->hooks->load)
+        return ves_diag_add(diag, VES_ERROR, VES_ABSENT, bout->mark, "this program loads no plugins");
+    ves_status status = ring->hooks->load(ring->hooks->data, bout->path, bout->objective, &ring->objective);
+    if (status != VES_OK) ves_diag_add(diag, VES_NOTE, status, bout->mark, "it is a problem of this suite");
+    return status;
+}
+
+ves_status ves_ring_open(ves_ring *ring, ves_arena *arena, ves_diag *diag)
+{
+    ring->plan = ves_arena_take(arena, (size_t)ring->jobs, sizeof(ves_plan *));
+    ring->state = ves_arena_take(arena, (size_t)ring->jobs, sizeof(void *));
+    if (!ring->plan || !ring->state) return ves_diag_fail(diag, VES_MEMORY);
+    if (ring->bout->kind == VES_BOUT_PLUGIN) VES_TRY(plugin_open(ring, diag));
+    if (ring->bout->kind == VES_BOUT_FILE) VES_TRY(file_open(ring, diag));
     return facts_find(ring, diag);
 }
 
 void ves_ring_close(ves_ring *ring)
 {
     for (int k = 0; ring->plan && k < ring->jobs; k++) ves_plan_destroy(ring->plan[k]);
+    for (int k = 0; ring->state && k < ring->jobs; k++)
+        if (ring->state[k]) ring->objective->destroy(ring->state[k]);
     ves_problem_destroy(ring->problem);
     ring->plan = NULL;
+    ring->state = NULL;
     ring->problem = NULL;
 }

@@ -7,18 +7,19 @@
 #include "vesica/plan.h"
 
 typedef struct ves_ring {
-    const ves_suite *suite;
     const ves_bout *bout;
+    const ves_bench_hooks *hooks;
+    int jobs;
     ves_bench_bout facts;
     ves_problem *problem; /* FILE */
     int grid[2];
-    int jobs;
-    ves_plan **plan; /* [jobs], made when first asked for */
+    ves_plan **plan;                /* [jobs], made when first asked for */
+    const ves_objective *objective; /* PLUGIN */
+    void **state;                   /* [jobs] as plan */
 } ves_ring;
 
-/* Reads what the bout names and tells its facts. */
-ves_status ves_ring_open(ves_ring *ring, const ves_suite *suite, const ves_bout *bout, int jobs,
-                         ves_arena *arena, ves_diag *diag);
+/* Reads what the bout names and tells its facts. The first three fields are the caller's. */
+ves_status ves_ring_open(ves_ring *ring, ves_arena *arena, ves_diag *diag);
 void ves_ring_close(ves_ring *ring);
 
 /* Run `seed` of it, for one thread: lives as long as the arena. */
@@ -29,7 +30,9 @@ typedef struct ves_pose {
     ves_instance instance;
     double *room;            /* [2 n] */
     ves_search_problem file; /* in its own units */
-    double *x;               /* [n] */
+    void *state;             /* PLUGIN */
+    const ves_objective *objective;
+    double *x; /* [n] */
 } ves_pose;
 ves_status ves_ring_pose(ves_ring *ring, int worker, int seed, ves_arena *arena, ves_pose *pose);
 

@@ -1,5 +1,5 @@
-/* f = 4 sum_{i<j} r^-12 - r^-6 over pairs of atoms; x holds three coordinates of each. Least energies:
- * Cambridge Cluster Database [Wales and Doye 1997], more digits by descent from there. */
+/* f = 4 sum_{i<j} r^-12 - r^-6 over pairs of atoms; x holds three coordinates of each. Least energies to six
+ * digits, as the Cambridge Cluster Database lists them [Wales and Doye 1997]. */
 #include <math.h>
 
 #include "suite/landscape.h"
