@@ -133,12 +133,13 @@ ves_status ves_round_join(ves_session *session, ves_asker *const *asker, int cou
 }
 
 /* A round that a stop broke off is kept in parts; what an interrupted search does after that, such as to prove
- * its best, is not: a resumed run goes through the same rounds as one that was never stopped. */
+ * its best, is not: a resumed run goes through the same rounds as one that was never stopped. One in which nothing
+ * was asked is kept too, or the block of the next would be taken for its own. */
 void ves_round_leave(ves_session *session, ves_asker *const *asker, int count)
 {
-    size_t said = 0;
-    for (int k = 0; k < count; k++) said += asker[k]->said.size;
-    if (session->hooks.keep && said && !session->closed) {
+    bool stale = false; /* the journal is of another run: nothing may be added to it */
+    for (int k = 0; k < count; k++) stale = stale || asker[k]->fault == VES_STALE;
+    if (session->hooks.keep && !session->closed && !session->fault && !stale) {
         session->closed = atomic_load(&session->stopped);
         if (session->closed)
             for (int k = 0; k < count; k++) ves_asker_save(asker[k]);
