@@ -25,9 +25,9 @@ static const char LOOP[] =
     "{u: 0, derivative: 1, field: out, scale: k}, {u: 1, derivative: 1, field: in, scale: k}]}}\n"
     "maximize: area\n";
 
-static const char *const FILES[] = {"result.json", "trace.jsonl", "problem.yaml", "start.vtp",
-                                    "best.vtp",    "times.json",  "log.txt",      "best.png"};
-enum { SAME = 5, ALL = 8 }; /* those that must be the same come first */
+static const char *const FILES[] = {"result.json", "trace.jsonl", "journal",    "problem.yaml", "run.json",
+                                    "start.vtp",   "best.vtp",    "times.json", "log.txt",      "best.png"};
+enum { SAME = 7, ALL = 10 }; /* those that must be the same come first */
 
 static void read_problem(const trial *t, ves_problem **problem, ves_diag *diag)
 {

@@ -22,7 +22,7 @@ static long trace_lines(ves_trace which, long candidates, long *bests)
     long lines = 0;
     remove(path);
     *bests = 0;
-    cr_assert(ves_tracer_begin(&tracer, path, &arena) == VES_OK);
+    cr_assert(ves_tracer_begin(&tracer, path, false, &arena) == VES_OK);
     for (long k = 0; k < candidates; k++) {
         double x = fmod(0.618034 * (double)k, 1), value = x * x;
         *bests += value < best;

@@ -39,6 +39,11 @@ typedef struct ves_run_options {
     const char *out;    /* exactly this folder instead: new, or empty */
     const char *name;   /* of numbered run folders, NULL: the problem's */
     ves_trace trace;
+    bool forget; /* keep no journal: such a run cannot be resumed */
+
+    /* Go on with the run in the folder `out`, with the same problem and options (but for jobs) that it was begun
+     * with, and end as if it had never been interrupted. One that is done is only gone through again. */
+    bool resume;
 } ves_run_options;
 
 /* One line under `expect:`. */
@@ -80,6 +85,9 @@ typedef struct ves_run {
     ves_design start;
     const bool *idle;   /* [variables] no effect seen on what is judged; NULL: nobody looked */
     const char *folder; /* NULL: none */
+    bool journaled;     /* it has a journal there */
+    long recalled;      /* evaluations that the journal of a resumed run knows; -1: it was not resumed */
+    bool over;          /* it was resumed, but is done: nothing is asked, no file is written */
 
     /* The result. */
     bool any;               /* some design could be measured: best holds */
@@ -122,7 +130,8 @@ typedef struct ves_run_hooks {
 /* options, hooks, diag: NULL for none. diag gets warnings and errors. VES_OK: see ending, feasible, passed.
  * VES_RANGE: a negative number among the options, a budget beyond 2^53, or an unknown trace.
  * VES_IO or VES_MEMORY with a result: it holds, but its folder could not be filled. VES_USAGE, VES_IO without
- * a result: its folder cannot be made; nothing was searched. Whenever there is no result, *run is NULL.
+ * a result: its folder cannot be made, or another process works in it; nothing was searched. VES_STALE: the
+ * journal in a folder to go on with is of another run or another version. Whenever there is no result, *run is NULL.
  * Destroy a run before its problem. */
 ves_status ves_run_create(const ves_problem *problem, const ves_run_options *options,
                           const ves_run_hooks *hooks, ves_run **run, ves_diag *diag);

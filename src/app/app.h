@@ -24,13 +24,14 @@ typedef struct app_options {
     int sets, plugins;
     ves_override set[APP_SETS];
     const char *plugin[APP_PLUGINS + 1]; /* ends with NULL */
-    bool seeded, json, test, no_files, reference, viewed, spines, suite, help;
+    bool seeded, json, test, no_files, reference, viewed, spines, suite, forget, help;
     uint64_t seed;
     long evaluations;
     int jobs, spine, grid[2];
-    double metres;  /* of the unit of export; 0: none is asked for */
-    double view[2]; /* radians: azimuth, height */
-    const char *start, *out, *patch, *points, *to, *unit, *png, *colour, *folder, *add;
+    double metres;       /* of the unit of export; 0: none is asked for */
+    double view[2];      /* radians: azimuth, height */
+    const char *decides; /* an option that a resumed run has decided already, or NULL */
+    const char *start, *resume, *out, *patch, *points, *to, *unit, *png, *colour, *add;
     ves_progress_style progress;
     ves_trace trace;
 } app_options;
@@ -60,6 +61,7 @@ extern const app_command app_commands[];
 
 int app_run(app *a);
 int app_bench(app *a);
+int app_journal(app *a);
 int app_eval(app *a);
 int app_check(app *a);
 int app_sample(app *a);

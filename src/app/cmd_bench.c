@@ -75,7 +75,7 @@ static ves_status resume(app *a, const ves_bench_options *options, const ves_ben
     bool more = added(a, &add);
     if (o->add && !more) return VES_USAGE;
     const ves_read_options read = {.overrides = more, .override = &add};
-    return ves_bench_resume(o->folder, &read, options, hooks, bench, a->diag);
+    return ves_bench_resume(o->resume, &read, options, hooks, bench, a->diag);
 }
 
 static ves_status begin(app *a, const ves_bench_options *options, const ves_bench_hooks *hooks,
@@ -110,7 +110,7 @@ int app_bench(app *a)
     const ves_bench_options options = {.jobs = o->jobs, .out = o->out, .no_files = o->no_files};
     ves_bench *bench = NULL;
     app_interrupt_listen();
-    ves_status status = (o->folder ? resume : begin)(a, &options, &hooks, &bench);
+    ves_status status = (o->resume ? resume : begin)(a, &options, &hooks, &bench);
     app_say(a);
     if (bench && o->json)
         json_print(bench);

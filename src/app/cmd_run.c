@@ -1,10 +1,10 @@
 /* vesica run */
-#include <stdlib.h>
 #include <string.h>
 
 #include "app/app.h"
 #include "study/folder.h"
 #include "study/result.h"
+#include "study/saved.h"
 
 typedef struct listener {
     app *a;
@@ -25,12 +25,20 @@ static void heading(void *data, const ves_run *run)
     if (run->searched)
         fprintf(stderr, ", seed %llu, %d %s", (unsigned long long)run->seed, run->jobs,
                 run->jobs == 1 ? "job" : "jobs");
+    if (run->recalled >= 0)
+        fprintf(stderr, "\n  goes on after %s",
+                app_screen_plural(run->recalled, "evaluation", "evaluations", v));
     fputs("\n\n", stderr);
 }
 
 static void show(void *data, const ves_progress *progress)
 {
-    ves_progress_show(((listener *)data)->bar, progress);
+    listener *l = data;
+    if (ves_diag_count(l->a->diag) > l->a->said) { /* a disk that is full is told while there is time */
+        ves_progress_break(l->bar);
+        app_say(l->a);
+    }
+    ves_progress_show(l->bar, progress);
 }
 
 static bool stopped(void *data)
@@ -58,50 +66,105 @@ static int verdict(const ves_run *run, ves_status status)
     return run->any && run->feasible && run->passed ? APP_DONE : APP_UNMET;
 }
 
-static ves_status work(app *a, const ves_opened *opened, ves_run **run)
+static ves_run_options options_of(const app *a, const ves_opened *opened)
 {
     const app_options *o = &a->options;
-    ves_run_options options = {.seeded = o->seeded,
-                               .seed = o->seed,
-                               .evaluations = o->evaluations,
-                               .jobs = o->jobs,
-                               .test = o->test,
-                               .files = !o->no_files,
-                               .out = o->out,
-                               .name = opened->name,
-                               .trace = o->trace};
-    listener l = {a, ves_progress_create(stderr, o->progress)};
+    return (ves_run_options){.seeded = o->seeded,
+                             .seed = o->seed,
+                             .evaluations = o->evaluations,
+                             .jobs = o->jobs,
+                             .test = o->test,
+                             .files = !o->no_files,
+                             .out = o->out,
+                             .name = opened->name,
+                             .trace = o->trace,
+                             .forget = o->forget};
+}
+
+static void say_end(const ves_run *run, const ves_run_options *options)
+{
+    if (run->over) fprintf(stderr, "%s: this run is done, nothing was asked again\n", run->folder);
+    if (run->ending == VES_ENDED_STOPPED && run->folder && !options->forget)
+        fprintf(stderr, "to go on: %s run --resume %s\n", app_called(), run->folder);
+}
+
+/* Runs it, and tells what came out. */
+static int work(app *a, const ves_opened *opened, const ves_run_options *options)
+{
+    ves_run *run;
+    listener l = {a, ves_progress_create(stderr, a->options.progress)};
     ves_run_hooks hooks = {heading, show, stopped, &l};
     app_interrupt_listen();
-    if (o->progress != VES_PROGRESS_NONE) app_patience_begin();
-    ves_status status = ves_run_create(opened->problem, &options, &hooks, run, a->diag);
+    if (a->options.progress != VES_PROGRESS_NONE) app_patience_begin();
+    ves_status status = ves_run_create(opened->problem, options, &hooks, &run, a->diag);
     app_patience_end();
     ves_progress_destroy(l.bar);
     app_say(a);
-    return status;
+    if (!run) return app_code(status);
+    if (a->options.json)
+        json_print(run);
+    else
+        app_screen_run(run, stdout);
+    say_end(run, options);
+    int code = verdict(run, status);
+    ves_run_destroy(run);
+    return code;
+}
+
+/* --- going on --- */
+
+/* The measures that the run was made with, unless they are given anew. */
+static ves_status plugins(app *a, const ves_saved *saved)
+{
+    app_options *o = &a->options;
+    if (!o->plugins) {
+        for (int k = 0; k < saved->plugins && k < APP_PLUGINS; k++)
+            o->plugin[o->plugins++] = saved->plugin[k].path;
+        VES_TRY(app_plugins_load(a));
+    }
+    if (o->plugins == saved->plugins) return ves_saved_compare(saved, o->plugin, a->diag);
+    app_fail(a, VES_USAGE, "the run \"%s\" was made with %d plugins, not %d", saved->folder, saved->plugins,
+             o->plugins);
+    return VES_USAGE;
+}
+
+static int resume(app *a)
+{
+    ves_saved saved;
+    ves_opened opened;
+    const char *folder = a->options.resume;
+    if (a->operands || a->options.decides)
+        return app_fail(
+            a, VES_USAGE,
+            "--resume takes from the folder \"%s\" how the run was begun: %s%s cannot be given with it",
+            folder, a->operands ? "" : "--", a->operands ? a->operand[0] : a->options.decides);
+    ves_status status = ves_saved_read(folder, &a->arena, &saved, a->diag);
+    if (status == VES_OK) status = plugins(a, &saved);
+    if (status == VES_OK) status = ves_saved_open(&saved, a->measure, &opened, a->diag);
+    app_say(a);
+    if (status != VES_OK) return app_code(status);
+    saved.options.jobs = a->options.jobs;
+    int code = work(a, &opened, &saved.options);
+    ves_study_close(&opened);
+    return code;
 }
 
 int app_run(app *a)
 {
     ves_opened opened;
-    ves_run *run;
     int code;
+    if (a->options.resume) return resume(a);
+    if (!a->operands)
+        return app_fail(a, VES_USAGE, "something is missing: vesica run FILE, or vesica run --resume RUN");
     if (ves_folder_is(a->operand[0]))
-        return app_fail(
-            a, VES_USAGE,
-            "\"%s\" is a folder: vesica run needs a problem file; to go on from a run use --start",
-            a->operand[0]);
+        return app_fail(a, VES_USAGE,
+                        "\"%s\" is a folder: vesica run needs a problem file; --resume goes on with a run "
+                        "that was interrupted, "
+                        "--start begins at its best design",
+                        a->operand[0]);
     if (!app_open(a, &opened, &code)) return code;
-    ves_status status = work(a, &opened, &run);
-    code = app_code(status);
-    if (run) {
-        if (a->options.json)
-            json_print(run);
-        else
-            app_screen_run(run, stdout);
-        code = verdict(run, status);
-        ves_run_destroy(run);
-    }
+    const ves_run_options options = options_of(a, &opened);
+    code = work(a, &opened, &options);
     ves_study_close(&opened);
     return code;
 }

@@ -3,8 +3,11 @@
 #define PROBLEM "set|start|plugin|json"
 
 const app_command app_commands[] = {
-    {"run", "run FILE", "search for the best shape; the result goes into a numbered folder under runs/", 1, 1,
-     PROBLEM "|seed|evaluations|jobs|out|progress|trace|test|no-files", app_run, NULL},
+    {"run", "run FILE", "search for the best shape; the result goes into a numbered folder under runs/", 0, 1,
+     PROBLEM "|seed|evaluations|jobs|out|progress|trace|journal|resume|test|no-files", app_run,
+     "A run that was stopped by Ctrl-C, or killed, goes on with `vesica run --resume RUN` and ends with the "
+     "same\n"
+     "result as one that never was. All it needs is in its folder."},
     {"bench", "bench SUITE | bench --resume DIR",
      "compare searches on the problems of a suite file; all runs go into a numbered folder under runs/", 0, 1,
      "set|resume|add|jobs|out|progress|no-files|json", app_bench,
@@ -22,6 +25,10 @@ const app_command app_commands[] = {
      "feasible: the constraints hold. Whether the surface crosses itself and a finer grid agrees is looked "
      "at by\n"
      "`vesica check`, and by a run for its bests."},
+    {"journal", "journal RUN", "all evaluations of a run, one a line", 1, 1, "to", app_journal,
+     "In SI units, as in result.json, with the sign of the goal. A constraint's column says by how much it "
+     "is missed,\n"
+     "relative to its size: 0 or less is met. T: temperature; stage and chain as in trace.jsonl."},
     {"sample", "sample FILE|RUN", "exact points and derivatives of one patch, as CSV", 1, 1,
      "set|start|plugin|patch|points|spine", app_sample,
      "u runs from 0 to 1 along the patch and v from 0 to 2 pi round it, also where a `domain` gives the "

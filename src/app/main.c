@@ -83,7 +83,6 @@ static const char *later(const char *word)
         {"serve", "the live designer"},
         {"animate", "parameters that follow time"},
         {"fit", "fitting boundary curves to a mesh"},
-        {"resume", "going on with an interrupted run"},
         {"rerun", "repeating a run"},
     };
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)

@@ -138,12 +138,11 @@ static bool take_plugin(app *a, const char *value)
     return true;
 }
 
-static bool take_resume(app *a, const char *value)
+static bool take_journal(app *a, const char *value)
 {
-    (void)value;
-    app_fail(a, VES_ABSENT, "--resume: this version of vesica (%s) cannot go on with an interrupted run yet",
-             VESICA_VERSION);
-    return false;
+    int word = ves_words_find("all|none", value);
+    a->options.forget = word == 1;
+    return word >= 0 || wrong(a, "--journal is all or none, not \"%s\"", value);
 }
 
 #define TEXT(field)                                                                                          \
@@ -153,12 +152,12 @@ static bool take_resume(app *a, const char *value)
         return *value || wrong(a, "--%s needs a value", #field);                                             \
     }
 TEXT(start)
+TEXT(resume)
 TEXT(out)
 TEXT(patch)
 TEXT(points)
 TEXT(to)
 TEXT(png)
-TEXT(folder)
 TEXT(add)
 #undef TEXT
 
@@ -195,7 +194,7 @@ static const option table[] = {
     {"points", "FILE", "CSV of u (0 to 1), v (0 to 2 pi), whatever `domain` says; - is stdin", take_points},
     {"spine", "N", "N points of the spine, the mean over v, from end to end, with its first two derivatives by u", take_spine},
     {"spines", NULL, "the spines of PDE patches too: drawn over the shape, or in files NAME-spines.vtp, .obj, .csv", take_spines},
-    {"to", "FORMAT[,FORMAT]", "see vesica list formats", take_to},
+    {"to", "FORMAT[,FORMAT]", "see vesica list formats; a journal: csv (unless said), jsonl", take_to},
     {"unit", "UNIT", "of the lengths in the files: mm, cm ...; m, unless said, whatever the problem file writes", take_unit},
     {"grid", "NUxNV", "cells along u and v of each patch", take_grid},
     {"png", "FILE", "where to; the ending png, svg or pdf says what (NAME.png)", take_png},
@@ -203,19 +202,21 @@ static const option table[] = {
     {"view", "AZIMUTH,HEIGHT", "where the viewer stands, in degrees", take_view},
     {"reference", NULL, "the reference chapter of the manual instead, in Markdown", take_reference},
     {"suite", NULL, "of suite files (vesica bench)", take_suite},
+    {"journal", "all|none", "whether the run keeps all evaluations, to be resumed and read (vesica journal)", take_journal},
+    {"resume", "RUN", "go on in the folder of a run or a benchmark that was interrupted or killed; it ends as one that was not", take_resume},
     {"help", NULL, "this text", take_help},
-    {"resume", "DIR", "go on in the folder of a benchmark: runs that are done are not done again", take_folder},
     {"add", "NAME={...}", "with --resume: one more method, as under `methods`", take_add},
-    {"resume", "RUN", NULL, take_resume},
 };
 /* clang-format on */
+
+/* What a resumed run has decided when it was begun. */
+static const char DECIDED[] = "set|start|seed|evaluations|out|trace|journal|test|no-files";
 
 enum { KNOWN = sizeof table / sizeof *table };
 
 static bool belongs(const app_command *command, const option *o)
 {
-    return !strcmp(o->name, "help") || ves_words_find(command->options, o->name) >= 0 ||
-           (!o->about && !strcmp(command->name, "run"));
+    return !strcmp(o->name, "help") || ves_words_find(command->options, o->name) >= 0;
 }
 
 static int unknown(app *a, const app_command *command, const char *word, size_t length)
@@ -223,7 +224,7 @@ static int unknown(app *a, const app_command *command, const char *word, size_t 
     const char *name[KNOWN], *text = ves_arena_text(&a->arena, word, length);
     int count = 0;
     for (int k = 0; k < KNOWN; k++)
-        if (belongs(command, &table[k]) && table[k].about) name[count++] = table[k].name;
+        if (belongs(command, &table[k])) name[count++] = table[k].name;
     int near = text ? ves_text_nearest(text, name, count) : -1;
     if (near >= 0)
         return app_fail(a, VES_USAGE, "vesica %s has no option \"--%s\", did you mean \"--%s\"?",
@@ -248,6 +249,7 @@ static bool option_read(app *a, const app_command *command, int count, char **wo
     size_t length = equals ? (size_t)(equals - name) : strlen(name);
     const option *o = find(command, name, length);
     if (!o) return unknown(a, command, name, length), false;
+    if (ves_words_find(DECIDED, o->name) >= 0) a->options.decides = o->name;
     if (!o->argument && equals) return wrong(a, "--%s takes no value", o->name);
     if (!o->argument) return o->take(a, "");
     if (equals) return o->take(a, equals + 1);
@@ -296,7 +298,7 @@ void app_options_list(const app_command *command, FILE *out)
     for (int k = 0; k < KNOWN; k++) {
         const option *o = &table[k];
         char text[80];
-        if (!o->about || !belongs(command, o) || !strcmp(o->name, "help")) continue;
+        if (!belongs(command, o) || !strcmp(o->name, "help")) continue;
         snprintf(text, sizeof text, "--%s%s%s", o->name, o->argument ? " " : "",
                  o->argument ? o->argument : "");
         fprintf(out, "  %-28s %s\n", text, o->about);

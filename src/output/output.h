@@ -50,6 +50,7 @@ typedef enum ves_progress_style {
 struct ves_progress;
 ves_progress_bar *ves_progress_create(FILE *stream, ves_progress_style style);
 void ves_progress_show(ves_progress_bar *bar, const struct ves_progress *progress);
+void ves_progress_break(ves_progress_bar *bar);   /* something else is to be said on the stream */
 void ves_progress_destroy(ves_progress_bar *bar); /* ends the line */
 
 /* ves_progress_show with the clock given, in seconds. */

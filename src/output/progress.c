@@ -204,6 +204,13 @@ static void stage_begin(ves_progress_bar *bar, const ves_progress *progress, dou
     snprintf(bar->name, NAME, "%s", progress->stage_name ? progress->stage_name : "search");
 }
 
+void ves_progress_break(ves_progress_bar *bar)
+{
+    if (!bar || bar->silent || !bar->terminal || !bar->drawn) return;
+    putc('\n', bar->stream);
+    bar->drawn = false;
+}
+
 void ves_progress_show_at(ves_progress_bar *bar, const ves_progress *progress, double now)
 {
     if (!bar || bar->silent) return;

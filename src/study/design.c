@@ -34,13 +34,18 @@ ves_status ves_design_measure(ves_plan *plan, const ves_problem *problem, const 
     return VES_OK;
 }
 
+double ves_design_excess(double constraint, double within)
+{
+    return constraint * (within / VES_FEASIBLE);
+}
+
 double ves_design_violation(const ves_problem *problem, const ves_record *record)
 {
     if (record->status != VES_OK) return NAN;
     double worst = 0;
     for (int k = 0; k < problem->constraints; k++) {
         const ves_constraint_def *c = &problem->constraint[k];
-        double e = record->constraint[k] * (c->within / VES_FEASIBLE);
+        double e = ves_design_excess(record->constraint[k], c->within);
         worst = fmax(worst, c->relation == VES_EQUAL ? fabs(e) : e);
     }
     return worst;

@@ -15,4 +15,7 @@ ves_status ves_design_measure(ves_plan *plan, const ves_problem *problem, const 
  * their `within`. NAN when the candidate failed. */
 double ves_design_violation(const ves_problem *problem, const ves_record *record);
 
+/* By how much a constraint is missed, relative to its size, from what a verdict says of it. */
+double ves_design_excess(double constraint, double within);
+
 #endif

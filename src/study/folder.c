@@ -124,3 +124,27 @@ char *ves_folder_free(const char *stem, const char *ending, ves_arena *arena)
         path = ves_arena_format(arena, "%s-%d.%s", stem, k, ending);
     return path;
 }
+
+/* .NAME.PID-TRY.ENDING, of a file NAME that a run writes. */
+static bool is_unfinished(const char *entry)
+{
+    static const char *const names[] = {"problem.yaml", "run.json", "result.json", "times.json",
+                                        "start.vtp",    "best.vtp", "best.png",    "log.txt"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        size_t length = strlen(names[k]);
+        if (*entry == '.' && !strncmp(entry + 1, names[k], length) && entry[length + 1] == '.' &&
+            isdigit((unsigned char)entry[length + 2]))
+            return true;
+    }
+    return false;
+}
+
+void ves_folder_tidy(const char *path, ves_arena *arena)
+{
+    DIR *folder = opendir(path);
+    for (struct dirent *entry; folder && (entry = readdir(folder));) {
+        char *name = is_unfinished(entry->d_name) ? ves_folder_path(path, entry->d_name, arena) : NULL;
+        if (name) unlink(name);
+    }
+    if (folder) closedir(folder);
+}

@@ -19,6 +19,9 @@ ves_status ves_folder_open(const char *path, ves_arena *arena, ves_diag *diag);
 /* FOLDER/NAME; NULL when out of memory. */
 char *ves_folder_path(const char *folder, const char *name, ves_arena *arena);
 
+/* Removes what a killed process left unfinished in a run folder (output/file.h). Nobody else may work there. */
+void ves_folder_tidy(const char *path, ves_arena *arena);
+
 bool ves_folder_is(const char *path); /* is there a folder? */
 
 /* A path that does not exist yet: STEM.ENDING, or STEM-2.ENDING ... */

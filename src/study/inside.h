@@ -2,6 +2,8 @@
 #ifndef VES_STUDY_INSIDE_H
 #define VES_STUDY_INSIDE_H
 
+#include "study/journal.h"
+#include "study/lock.h"
 #include "study/run.h"
 #include "study/trace.h"
 
@@ -20,6 +22,9 @@ typedef struct ves_study {
     ves_plan **plan;  /* [run->jobs] */
     ves_search_options search;
     ves_tracer tracer;
+    ves_lock lock; /* of the run folder */
+    ves_journal journal;
+    bool told;              /* that the journal cannot be written */
     double wall, cpu, mark; /* clocks: the beginning; the stage's beginning */
     int stage;
     int stages_before; /* of searches that are over, and their evaluations */
@@ -48,5 +53,8 @@ void ves_study_plans_destroy(ves_plan **plan, int count);
 ves_status ves_study_search(ves_study *study, const ves_search_options *options, const double *const *from,
                             int count);
 bool ves_study_stopped(ves_study *study);
+
+/* A warning when the journal cannot be written any more. */
+void ves_study_journal_tell(ves_study *study);
 
 #endif

@@ -9,6 +9,7 @@
 #include "study/inside.h"
 #include "study/judge.h"
 #include "study/keep.h"
+#include "study/saved.h"
 #include "study/settle.h"
 
 enum { JOBS_MOST = 256 };
@@ -74,6 +75,7 @@ static void set_up(ves_study *s)
     run->stop = s->problem->variables ? "nothing to optimize" : "nothing to vary";
     run->change = run->finer_change = NAN;
     run->passed = true;
+    run->recalled = -1;
     time_t now = time(NULL);
     struct tm utc;
     if (gmtime_r(&now, &utc))
@@ -155,31 +157,99 @@ static ves_status idle_find(ves_study *s)
 
 /* --- the folder: a disk that fills up later does not stop the search --- */
 
-static void folder_begin(ves_study *s)
+static ves_status folder_make(ves_study *s)
 {
     const ves_run_options *o = s->options;
-    ves_run *run = s->run;
     const char *name = o->name ? o->name : s->problem->name;
-    if (!o->files) return;
     char *folder = NULL;
-    s->files = o->out ? ves_folder_make(o->out, s->arena, &folder, s->diag)
-                      : ves_folder_number(o->parent ? o->parent : "runs", name, s->arena, &folder, s->diag);
-    run->folder = folder;
-    if (s->files != VES_OK) return;
-    s->files = ves_keep_problem(run, s->arena, s->diag);
+    ves_status status =
+        o->out ? ves_folder_make(o->out, s->arena, &folder, s->diag)
+               : ves_folder_number(o->parent ? o->parent : "runs", name, s->arena, &folder, s->diag);
+    s->run->folder = folder;
+    return status;
+}
+
+static ves_journal_head head_of(ves_study *s)
+{
+    const ves_problem *p = s->problem;
+    return (ves_journal_head){p->variables, p->constraints, ves_saved_head(s->run, s->options, s->arena)};
+}
+
+/* What makes a folder one of a run that can be resumed. */
+static ves_status folder_fill(ves_study *s)
+{
+    const ves_run *run = s->run;
+    VES_TRY(ves_lock_take(&s->lock, run->folder, s->arena, s->diag));
+    VES_TRY(ves_keep_problem(run, s->arena, s->diag));
+    VES_TRY(ves_saved_write(run, s->options, s->arena, s->diag));
+    if (!run->searched || s->options->forget) return VES_OK;
+    const ves_journal_head head = head_of(s);
+    if (!head.text) return ves_diag_fail(s->diag, VES_MEMORY);
+    return ves_journal_create(&s->journal, run->folder, &head, s->arena, s->diag);
+}
+
+static ves_status tracer_begin(ves_study *s)
+{
+    const ves_run_options *o = s->options;
     s->tracer = (ves_tracer){.problem = s->problem, .which = o->trace, .diag = s->diag};
-    char *path = ves_folder_path(run->folder, "trace.jsonl", s->arena);
-    if (s->files != VES_OK || !run->searched || o->trace == VES_TRACE_NONE) return;
-    s->files = path ? ves_tracer_begin(&s->tracer, path, s->arena) : ves_diag_fail(s->diag, VES_MEMORY);
+    if (!s->run->searched || o->trace == VES_TRACE_NONE) return VES_OK;
+    char *path = ves_folder_path(s->run->folder, "trace.jsonl", s->arena);
+    return path ? ves_tracer_begin(&s->tracer, path, o->resume, s->arena)
+                : ves_diag_fail(s->diag, VES_MEMORY);
+}
+
+static ves_status folder_begin(ves_study *s)
+{
+    if (!s->options->files || s->run->over) return VES_OK;
+    if (!s->options->resume) {
+        VES_TRY(folder_make(s));
+        VES_TRY(folder_fill(s));
+    }
+    s->run->journaled = s->journal.open;
+    return tracer_begin(s);
+}
+
+/* Is it done, and is its result there? */
+static bool is_over(const ves_study *s)
+{
+    char *path = ves_folder_path(s->run->folder, "result.json", s->arena);
+    return s->journal.done && path && access(path, R_OK) == 0;
+}
+
+static ves_status folder_resume(ves_study *s)
+{
+    ves_run *run = s->run;
+    if (!s->options->resume) return VES_OK;
+    run->folder = ves_arena_text(s->arena, s->options->out, strlen(s->options->out));
+    const ves_journal_head head = head_of(s);
+    if (!run->folder || !head.text) return ves_diag_fail(s->diag, VES_MEMORY);
+    VES_TRY(ves_lock_take(&s->lock, run->folder, s->arena, s->diag));
+    ves_folder_tidy(run->folder, s->arena);
+    if (!run->searched) return VES_OK;
+    VES_TRY(ves_journal_reopen(&s->journal, run->folder, &head, s->arena, s->diag));
+    run->journaled = true;
+    run->recalled = s->journal.evaluations;
+    if (s->journal.torn)
+        ves_diag_add(s->diag, VES_NOTE, VES_OK, (ves_mark){0},
+                     "the last %llu bytes of \"%s\" are not whole: what they told is asked again",
+                     (unsigned long long)s->journal.torn, s->journal.path);
+    run->over = is_over(s);
+    return VES_OK;
 }
 
 static void folder_end(ves_study *s)
 {
-    if (!s->run->folder) return;
-    ves_status trace = ves_tracer_end(&s->tracer),
-               kept = ves_keep_result(s->run, s->plan[0], s->arena, s->diag);
-    if (s->files == VES_OK) s->files = trace != VES_OK ? trace : kept;
+    bool done = s->run->ending != VES_ENDED_STOPPED;
+    if (s->run->folder && !s->run->over) {
+        ves_status trace = ves_tracer_end(&s->tracer),
+                   kept = ves_keep_result(s->run, s->plan[0], s->arena, s->diag);
+        if (s->files == VES_OK) s->files = trace != VES_OK ? trace : kept;
+    }
+    ves_journal_end(&s->journal, done && s->files == VES_OK);
+    ves_study_journal_tell(s);
 }
+
+/* --- the search --- */
 
 /* The dear checks of the start; a note where they fail. */
 static ves_status start_prove(ves_study *s, const char *what, ves_status *proof)
@@ -193,8 +263,6 @@ static ves_status start_prove(ves_study *s, const char *what, ves_status *proof)
     snprintf(text, sizeof text, "the %s did not pass its checks: %s", what, ves_status_text(verdict.status));
     return verdict.status == VES_OK ? VES_OK : ves_study_note(s, text);
 }
-
-/* --- the search --- */
 
 static void stage_names(ves_study *s)
 {
@@ -236,11 +304,11 @@ static ves_status once(ves_study *s)
 static ves_status work(ves_study *s)
 {
     ves_run *run = s->run;
+    VES_TRY(folder_resume(s));
     VES_TRY(plans_make(s));
     VES_TRY(start_measure(s));
     if (run->searched || s->options->prove) VES_TRY(idle_find(s));
-    folder_begin(s);
-    if (s->files != VES_OK) return s->files; /* told before the search has cost anything */
+    VES_TRY(folder_begin(s)); /* told before the search has cost anything */
     if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);
     VES_TRY(run->searched ? search(s) : once(s));
     run->finer_change = ves_plan_change(s->plan[0], &run->best, &run->finer);
@@ -277,13 +345,16 @@ ves_status ves_run_create(const ves_problem *problem, const ves_run_options *opt
                    .hooks = hooks ? hooks : &deaf,
                    .diag = diag,
                    .run = &box->run,
-                   .arena = &box->arena};
+                   .arena = &box->arena,
+                   .lock = {.fd = -1}};
     s.wall = ves_study_clock();
     s.cpu = seconds(CLOCK_PROCESS_CPUTIME_ID);
     set_up(&s);
     ves_status status = work(&s);
     ves_study_plans_destroy(s.plan, s.run->jobs);
     ves_tracer_end(&s.tracer);
+    ves_journal_end(&s.journal, false);
+    ves_lock_drop(&s.lock);
     if (status != VES_OK) {
         ves_run_destroy(&box->run);
         return status;

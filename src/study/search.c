@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/diag.h"
@@ -16,6 +17,17 @@ static void stage_enter(ves_study *s, int index)
     s->mark = now;
     s->stage = index;
     if (index >= t->stages) t->stages = index + 1;
+}
+
+/* Once, and at once: who reads it may make room, or end the run while most of it is in the journal. */
+void ves_study_journal_tell(ves_study *s)
+{
+    if (!s->journal.error || s->told) return;
+    s->told = true;
+    if (s->files == VES_OK) s->files = VES_IO;
+    ves_diag_add(s->diag, VES_WARNING, VES_IO, (ves_mark){0},
+                 "cannot write \"%s\": %s. The search goes on, but can be resumed only from here",
+                 s->journal.path, strerror(s->journal.error));
 }
 
 static void hear_record(void *data, const ves_record *heard)
@@ -37,6 +49,7 @@ static void hear_record(void *data, const ves_record *heard)
         s->seen_violation = ves_design_violation(s->problem, &record);
     }
     ves_tracer_write(&s->tracer, &record);
+    ves_study_journal_tell(s);
 }
 
 static void hear_progress(void *data, const ves_progress *progress)
@@ -152,6 +165,32 @@ static ves_status result_take(ves_study *s, const ves_search_result *r)
     return VES_OK;
 }
 
+static void hear_block(void *data, const void *block, size_t size, bool whole)
+{
+    ves_study *s = data;
+    ves_journal_keep(&s->journal, block, size, whole, s->stages_before);
+}
+
+static bool tell_block(void *data, const void **block, size_t *size, bool *whole)
+{
+    return ves_journal_recall(&((ves_study *)data)->journal, block, size, whole);
+}
+
+static double hear_clock(void *data)
+{
+    (void)data;
+    return ves_study_clock();
+}
+
+static ves_status stale(const ves_study *s)
+{
+    return ves_diag_add(
+        s->diag, VES_ERROR, VES_STALE, (ves_mark){0},
+        "\"%s\" does not fit this search: it comes from another build of vesica, or from another "
+        "kind of machine. Go on with that one, or run \"%s/problem.yaml\" anew",
+        s->journal.path, s->run->folder);
+}
+
 ves_status ves_study_search(ves_study *s, const ves_search_options *options, const double *const *from,
                             int count)
 {
@@ -160,6 +199,7 @@ ves_status ves_study_search(ves_study *s, const ves_search_options *options, con
     ves_search_result *result = NULL;
     ves_search_hooks hooks = {
         .progress = hear_progress, .record = hear_record, .stopped = hear_stopped, .data = s};
+    if (s->journal.open) hooks.keep = hear_block, hooks.recall = tell_block, hooks.clock = hear_clock;
     if (from) problem.start = from[0], problem.other = from + 1, problem.others = count - 1;
     s->from = problem.start;
     s->stages_before = run->times.stages;
@@ -170,7 +210,12 @@ ves_status ves_study_search(ves_study *s, const ves_search_options *options, con
     ves_status status = ves_search_run(&problem, options, &hooks, &result);
     stage_enter(s, s->stage);
     run->times.search += ves_study_clock() - begun;
+    if (status == VES_STALE || s->journal.stale) {
+        ves_search_result_destroy(result);
+        return stale(s);
+    }
     if (!result) return ves_diag_fail(s->diag, status);
+    ves_study_journal_tell(s);
     s->left = result->budget - result->evaluations;
     status = result_take(s, result);
     ves_search_result_destroy(result);

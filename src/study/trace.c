@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/diag.h"
 #include "output/file.h"
@@ -15,14 +16,15 @@ enum { FIXED = 400, EACH = 28 };
 /* Lines of a short trace before it takes but every second of what it took. */
 enum { THIN = 2500 };
 
-ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, ves_arena *arena)
+ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, bool again, ves_arena *arena)
 {
     tracer->path = path;
     tracer->best = (ves_verdict){.status = VES_NO_NUMBER};
     tracer->room = (size_t)(FIXED + EACH * tracer->problem->variables);
     tracer->line = ves_arena_take(arena, tracer->room, 1);
     if (!tracer->line) return ves_diag_fail(tracer->diag, VES_MEMORY);
-    tracer->out = fopen(path, "wbx");
+    tracer->out = again ? fopen(path, "r+b") : NULL;
+    if (!tracer->out) tracer->out = fopen(path, "wbx");
     return tracer->out ? VES_OK : ves_file_complain(path, errno, tracer->diag);
 }
 
@@ -97,6 +99,8 @@ void ves_tracer_write(ves_tracer *tracer, const ves_record *record)
 ves_status ves_tracer_end(ves_tracer *tracer)
 {
     if (!tracer->out) return tracer->status;
+    long end = ftell(tracer->out);
+    if (fflush(tracer->out) || end < 0 || ftruncate(fileno(tracer->out), end)) complain(tracer);
     if (fclose(tracer->out)) complain(tracer);
     tracer->out = NULL;
     return tracer->status;

@@ -21,8 +21,9 @@ typedef struct ves_tracer {
     ves_status status;
 } ves_tracer;
 
-/* The arena keeps the room of a line. On failure nothing is open. */
-ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, ves_arena *arena);
+/* again: over the one that is there, line by line the same. The arena keeps the room of a line. On failure nothing
+ * is open. */
+ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, bool again, ves_arena *arena);
 void ves_tracer_write(ves_tracer *tracer, const ves_record *record);
 ves_status ves_tracer_end(ves_tracer *tracer);
 
