@@ -79,8 +79,10 @@ Test(suite_suite, runs_are_numbered_by_methods_first)
     ves_suite_place p = ves_suite_run(&suite, 12 + 2 * 4 + 3);
     cr_expect(p.entrant == 1 && p.bout == 2 && p.seed == 3);
     cr_expect(ves_suite_budget(&suite, 5) == 5e4 && ves_suite_budget(&suite, 40) == 2e5);
-    cr_expect(ves_suite_value(-15, 0.1) == -13.5 && ves_suite_value(0, 0.1) == 0.1);
-    const ves_bout a = {.name = "a"}, b = {.name = "b"};
+    const ves_bout a = {.name = "a"}, b = {.name = "b"}, file = {.kind = VES_BOUT_FILE};
+    cr_expect(ves_suite_value(&a, -15, 0.1) == -13.5 && ves_suite_value(&a, 0.5, 0.1) == 0.6);
+    cr_expect(fabs(ves_suite_value(&file, 0.01, 0.1) - 0.011) < 1e-16 &&
+              ves_suite_value(&file, 0, 0.1) == 0.1);
     cr_expect(ves_suite_seed(&suite, &a, 0) != ves_suite_seed(&suite, &b, 0));
     cr_expect(ves_suite_seed(&suite, &a, 0) != ves_suite_seed(&suite, &a, 1));
     cr_expect(ves_suite_seed(&suite, &a, 0) < 1ULL << 53);

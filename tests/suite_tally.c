@@ -90,8 +90,8 @@ Test(suite_tally, scores, .init = fill)
     near(t.pair[1].p, 4.0 / 256, "p");
     near(t.pair[2].effect, 0.5 / 16, "mirrored");
     cr_expect(t.pair[1].pairs == 8);
-    near(ves_tally_dearness(&suite, &outcome[0], 0), (log10(10) + 2 * log10(20)) / 3, "dearness");
-    near(ves_tally_dearness(&suite, &outcome[8], 0), 3, "ten budgets");
+    near(ves_tally_dearness(&suite, &bouts[0], &outcome[0], 0), (log10(10) + 2 * log10(20)) / 3, "dearness");
+    near(ves_tally_dearness(&suite, &bouts[0], &outcome[8], 0), 3, "ten budgets");
     ves_tally_destroy(&t);
 }
 

@@ -7,8 +7,9 @@
 #include "app/app.h"
 #include "bridge/bridge.h"
 #include "problem/schema.h"
+#include "suite/landscape.h"
 
-enum { TOPICS = 64 };
+enum { TOPICS = 128 };
 
 static int text_print(app *a, const char *text)
 {
@@ -49,6 +50,16 @@ static void topics(app *a, ves_topic *topic)
                   ves_arena_format(
                       &a->arena, "a kind of picture\n      example: vesica show problem.yaml --png shape.%s",
                       picture[k]));
+    for (const ves_landscape *const *l = ves_landscapes(); *l; l++)
+        topic_add(a, topic, &count, (*l)->name,
+                  ves_arena_format(
+                      &a->arena,
+                      "a function of suites (vesica bench)\n      %s\n      example: {function: %s, n: %d%s}",
+                      (*l)->about, (*l)->name,
+                      (*l)->least > 5 ? (*l)->least
+                      : (*l)->most    ? (*l)->most
+                                      : 10,
+                      (*l)->free ? ", rotate: true" : ""));
     topic_add(a, topic, &count, "trace",
               "the candidates of a run, trace.jsonl in its folder: one JSON object a line\n"
               "      with evaluation, stage, chain, x (SI), value, violation, T, accepted, status; x in the "

@@ -54,10 +54,10 @@ static void heading(const ves_bench *b, FILE *out)
             b->jobs == 1 ? "job" : "jobs");
     fprintf(out, "  budget: %s for each variable, at most %s; a value costs %g, with gradients %g\n",
             number(s->per_dimension, budget), number(s->most, most), s->cost, s->cost_gradient);
-    fprintf(
-        out,
-        "  targets: the reference + gap max(1, |reference|), gaps %g, %g, %g; feasible: violated by no more ",
-        s->target[0], s->target[1], s->target[2]);
+    fprintf(out,
+            "  targets: the reference + gap max(1, |reference|) (files: gap |reference|), gaps %g, %g, %g\n  "
+            "feasible: violated by no more ",
+            s->target[0], s->target[1], s->target[2]);
     fprintf(out, "than %g (<=), %g (==)\n\n", s->inequality, s->equality);
 }
 
@@ -75,7 +75,9 @@ static void references(const ves_bench *b, FILE *out)
         char a[32], c[32];
         app_table_cell(&t, "%s", s->bout[p].name);
         app_table_cell(&t, "%d", f->n);
-        app_table_cell(&t, f->equalities ? "%d, %d ==" : f->m ? "%d" : "", f->m, f->equalities);
+        char held[CELL] = "";
+        if (f->m) snprintf(held, sizeof held, f->equalities ? "%d, %d ==" : "%d", f->m, f->equalities);
+        app_table_cell(&t, "%s%s%s", held, *held && *f->eliminated ? ", " : "", f->eliminated);
         app_table_number(&t, r->value);
         if (r->known)
             app_table_cell(&t, "known");
@@ -244,7 +246,8 @@ static void optima(const ves_bench *b, FILE *out)
                 place.seed);
         for (int e = 0; e < s->entrants; e++) {
             if (!o->hits[e]) continue;
-            fprintf(out, "%s%s %d times", gap, s->entrant[e].name, o->hits[e]);
+            fprintf(out, "%s%s ", gap, s->entrant[e].name);
+            fprintf(out, o->hits[e] == 1 ? "once" : "%d times", o->hits[e]);
             gap = ", ";
         }
         fputc('\n', out);
@@ -252,17 +255,36 @@ static void optima(const ves_bench *b, FILE *out)
     if (b->optima) fputc('\n', out);
 }
 
-/* The best share at the last target; then whom it is not shown to differ from. */
-static void verdict(const ves_bench *b, FILE *out)
+/* The most hits of the last target; of equals the better one of the pair. */
+static int best_of(const ves_bench *b)
 {
-    const ves_suite *s = b->suite;
     int best = 0, last = VES_TARGETS - 1;
-    char budget[32], most[32];
-    for (int e = 1; e < s->entrants; e++) {
-        const ves_pair *pair = &b->tally.pair[e * s->entrants + best];
+    for (int e = 1; e < b->suite->entrants; e++) {
+        const ves_pair *pair = &b->tally.pair[e * b->suite->entrants + best];
         int more = b->tally.total[e].hits[last] - b->tally.total[best].hits[last];
         if (more > 0 || (more == 0 && pair->effect > 0.5)) best = e;
     }
+    return best;
+}
+
+/* Those that the best is not shown to differ from; or those that it is, and that hit as often. */
+static void others(const ves_bench *b, int best, bool same, const char *before, FILE *out)
+{
+    int last = VES_TARGETS - 1;
+    for (int e = 0; e < b->suite->entrants; e++) {
+        const ves_pair *pair = &b->tally.pair[best * b->suite->entrants + e];
+        bool shown = pair->p < 0.05, often = b->tally.total[e].hits[last] == b->tally.total[best].hits[last];
+        if (e == best || isnan(pair->p) || (same ? shown : !shown || !often)) continue;
+        fprintf(out, "%s%s", before, b->suite->entrant[e].name);
+        before = ", ";
+    }
+}
+
+static void verdict(const ves_bench *b, FILE *out)
+{
+    const ves_suite *s = b->suite;
+    int best = best_of(b), last = VES_TARGETS - 1;
+    char budget[32], most[32];
     const ves_total *t = &b->tally.total[best];
     fprintf(out, "Within %s cost units for each variable, at most %s, ", number(s->per_dimension, budget),
             number(s->most, most));
@@ -272,15 +294,8 @@ static void verdict(const ves_bench *b, FILE *out)
     }
     fprintf(out, "%s met the last target most often: %.1f %% of %d runs", s->entrant[best].name,
             100 * t->share[last].value, t->runs);
-    for (int e = 0; e < s->entrants; e++) {
-        const ves_pair *pair = &b->tally.pair[best * s->entrants + e];
-        if (e == best || isnan(pair->p)) continue;
-        if (!(pair->p < 0.05))
-            fprintf(out, "; no difference is shown from %s", s->entrant[e].name);
-        else if (b->tally.total[e].hits[last] == t->hits[last])
-            fprintf(out, "; so did %s, %s", s->entrant[e].name,
-                    pair->effect > 0.5 ? "at a higher cost" : "cheaper");
-    }
+    others(b, best, false, "; as often, at a higher cost: ", out);
+    others(b, best, true, "; no difference is shown from ", out);
     fprintf(out, ".\n");
 }
 

@@ -86,6 +86,9 @@ static ves_status read_root(ves_reader *reader, const ves_node *root)
     } else if (root->kind != VES_NODE_MAP) {
         ves_reader_error(reader, VES_SYNTAX, root,
                          "a problem file is a mapping of keys, beginning with vesica: 1");
+    } else if (ves_node_find(root, "suite") && ves_node_find(root, "methods")) {
+        ves_reader_error(reader, VES_SYNTAX, root,
+                         "this is a suite, not a problem file: it is for vesica bench");
     } else if (ves_reader_format(reader, root) &&
                ves_fields_read(reader, root, ves_schema_root.table, "problem", &fields)) {
         ves_reader_repeats(reader, root);

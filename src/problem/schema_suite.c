@@ -78,7 +78,7 @@ static const ves_entry root[] = {
     {{"seed", KIND(VES_SEED), .fallback = 1, .about = "what all random numbers come from"}, "seed: 1", NULL},
     {{"budget", KIND(VES_MAP), .about = "what a run may cost"}, "budget: {per_dimension: 1e4, most: 2e5}", budget_keys},
     {{"cost", KIND(VES_MAP), .about = "what an evaluation costs"}, "cost: {value: 1, gradient: 3}", cost_keys},
-    {{"targets", VES_NUMBERS, .about = "three gaps, falling, [1e-1, 1e-3, 1e-6] unless given: a target is met by a feasible value up to the optimum + gap * max(1, |optimum|); a run ends at the last, where the optimum is known"}, "targets: [1e-1, 1e-3, 1e-6]", NULL},
+    {{"targets", VES_NUMBERS, .about = "three gaps, falling, [1e-1, 1e-3, 1e-6] unless given: a target is met by a feasible value up to the optimum + gap * max(1, |optimum|), of a problem file gap * |optimum|; a run ends at the last, where the optimum is known"}, "targets: [1e-1, 1e-3, 1e-6]", NULL},
     {{"feasible", KIND(VES_MAP), .about = "what functions and plugins may violate; a problem file says it for itself"}, "feasible: {inequality: 1e-6, equality: 1e-4}", feasible_keys},
     END};
 

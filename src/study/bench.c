@@ -85,7 +85,7 @@ static ves_status fight(bench *b, int worker, int index, ves_arena *arena, ves_o
                        .equality = suite->equality,
                        .target = isnan(pose.optimum)
                                      ? -HUGE_VAL
-                                     : ves_suite_value(pose.optimum, suite->target[VES_TARGETS - 1]),
+                                     : ves_suite_value(bout, pose.optimum, suite->target[VES_TARGETS - 1]),
                        .clock = ves_study_clock};
     ves_contest contest = {.entrant = &suite->entrant[place.entrant],
                            .meter = &meter,

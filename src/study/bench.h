@@ -32,6 +32,7 @@ typedef struct ves_bench_options {
 /* What a problem of the suite turned out to be. */
 typedef struct ves_bench_bout {
     int n, m, equalities;
+    const char *eliminated; /* "scale", "solve", "scale, solve": equations that every candidate meets; "" */
     bool gradients;
     double optimum;                   /* NAN: not known */
     double seconds, seconds_gradient; /* of one evaluation, measured; NAN: not */

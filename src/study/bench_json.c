@@ -54,6 +54,7 @@ static void problem(const ves_bench *bench, int p, bool clocks, ves_json *json)
     ves_json_integer(json, "n", facts->n);
     ves_json_integer(json, "constraints", facts->m);
     ves_json_integer(json, "equations", facts->equalities);
+    ves_json_text(json, "eliminated", *facts->eliminated ? facts->eliminated : NULL);
     ves_json_flag(json, "gradients", facts->gradients);
     ves_json_number(json, "budget", ves_suite_budget(s, facts->n));
     ves_json_number(json, "reference", r->value);

@@ -22,13 +22,20 @@ static int by_value(const void *a, const void *b)
     return x->run - y->run;
 }
 
+/* Do the values of a and a worse b differ by less than a target's gap? */
+static bool within(const ves_bench *bench, const ves_bout *bout, double a, double b, int target)
+{
+    return b <= ves_suite_value(bout, a, bench->suite->target[target]);
+}
+
 static ves_status is_same(ves_pose *pose, const ves_bench *bench, const ves_bench_optimum *optimum,
                           const end *e, bool *same)
 {
     const ves_outcome *a = &bench->outcome[optimum->run], *b = &bench->outcome[e->run];
+    const ves_bout *bout = &bench->suite->bout[optimum->bout];
     double apart = 0;
-    *same = fabs(ves_suite_value(a->value, bench->suite->target[1]) - a->value) >= fabs(b->value - a->value);
-    if (!*same) return VES_OK;
+    *same = within(bench, bout, a->value, b->value, VES_TARGETS - 1);
+    if (*same || !within(bench, bout, a->value, b->value, 1)) return VES_OK;
     for (int i = 0; i < a->n; i++) apart = fmax(apart, fabs(a->x[i] - b->x[i]));
     *same = apart <= near;
     if (*same || !pose->problem.same) return VES_OK;
@@ -73,7 +80,7 @@ ves_status ves_optima_find(ves_ring *ring, int bout, ves_bench *bench, ves_arena
         if (counts) list[count++] = (end){o->value, k};
     }
     if (count) qsort(list, (size_t)count, sizeof *list, by_value);
-    for (int k = 0; k < count && list[k].value <= ves_suite_value(list[0].value, suite->target[0]); k++)
+    for (int k = 0; k < count && within(bench, ring->bout, list[0].value, list[k].value, 0); k++)
         VES_TRY(sort_in(&pose, bench, first, bout, &list[k]));
     return VES_OK;
 }

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/diag.h"
+#include "problem/problem.h"
 #include "study/run.h"
 
 /* Evaluations are timed until so many have been asked or so many seconds are over. */
@@ -162,6 +163,12 @@ static double timed(const ves_search_problem *p, bool slopes, ves_arena *arena)
     return count ? sum / count : NAN;
 }
 
+static const char *eliminated(const ves_problem *problem)
+{
+    if (!problem || (!problem->scale && !problem->solve)) return "";
+    return !problem->solve ? "scale" : problem->scale ? "scale, solve" : "solve";
+}
+
 static ves_status facts_find(ves_ring *ring, ves_diag *diag)
 {
     ves_arena arena = {0};
@@ -169,8 +176,11 @@ static ves_status facts_find(ves_ring *ring, ves_diag *diag)
     ves_status status = ves_ring_pose(ring, 0, 0, &arena, &pose);
     if (status == VES_OK) {
         const ves_search_problem *p = &pose.problem;
-        ring->facts =
-            (ves_bench_bout){.n = p->n, .m = p->m, .gradients = p->gradients, .optimum = pose.optimum};
+        ring->facts = (ves_bench_bout){.n = p->n,
+                                       .m = p->m,
+                                       .eliminated = eliminated(ring->problem),
+                                       .gradients = p->gradients,
+                                       .optimum = pose.optimum};
         for (int j = 0; j < p->m; j++) ring->facts.equalities += p->equality && p->equality[j];
         ring->facts.seconds = timed(p, false, &arena);
         ring->facts.seconds_gradient = timed(p, true, &arena);

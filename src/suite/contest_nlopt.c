@@ -160,8 +160,10 @@ static ves_status descend(call *c)
         nlopt_result result = nlopt_optimize(c->opt, contest->start, &value);
         if (meter->fault) return meter->fault;
         if (result == NLOPT_OUT_OF_MEMORY) return VES_MEMORY;
+        const char *why = nlopt_get_errmsg(c->opt);
         if (result == NLOPT_INVALID_ARGS)
-            ves_contest_fail(contest, "NLopt's %s does not take the problem", contest->entrant->algorithm);
+            ves_contest_fail(contest, "NLopt's %s does not take the problem%s%s", contest->entrant->algorithm,
+                             why ? ": " : "", why ? why : "");
         idle = meter->evaluations == before ? idle + 1 : 0;
         if (idle > IDLE && !meter->over)
             ves_contest_fail(contest, "NLopt's %s ends without an evaluation", contest->entrant->algorithm);

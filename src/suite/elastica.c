@@ -6,8 +6,10 @@
 
 enum { H = VES_ELASTICA_HALF, NODES = 96 };
 
-const double ves_elastica_bounds[VES_ELASTICA][2] = {{0.2, 2}, {-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5},
-                                                     {0.2, 2}, {-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}};
+/* Harmonic k may turn the tangent as much as any other: |a_k| <= 1/(2k). */
+const double ves_elastica_bounds[VES_ELASTICA][2] = {
+    {0.2, 2}, {-1.0 / 4, 1.0 / 4}, {-1.0 / 6, 1.0 / 6}, {-1.0 / 8, 1.0 / 8},
+    {0.2, 2}, {-1.0 / 4, 1.0 / 4}, {-1.0 / 6, 1.0 / 6}, {-1.0 / 8, 1.0 / 8}};
 const double ves_elastica_place[VES_ELASTICA] = {1.28885214922476,    -0.126519550678168, 0.0371524656561372,
                                                  -0.0214433982674778, 0.526521150071294,  -0.0361352713563027,
                                                  0.0812857281950754,  -0.0371740501665956};

@@ -37,7 +37,7 @@ int ves_profile_ecdf(const ves_tally_input *input, const ves_tally *tally, int e
         for (int k = 0; k < s->seeds; k++) {
             const ves_outcome *o = run_of(input, entrant, p, k);
             for (int t = 0; o->done && t < VES_PROFILE_TARGETS; t++) {
-                double value = ves_suite_value(tally->reference[p].value, gap_of(s, t));
+                double value = ves_suite_value(&s->bout[p], tally->reference[p].value, gap_of(s, t));
                 x[count++] = ves_outcome_reach(o, value) / input->n[p];
             }
         }

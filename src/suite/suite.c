@@ -16,9 +16,11 @@ double ves_suite_budget(const ves_suite *suite, int n)
     return floor(fmin(suite->per_dimension * n, suite->most));
 }
 
-double ves_suite_value(double reference, double gap)
+double ves_suite_value(const ves_bout *bout, double reference, double gap)
 {
-    return reference + gap * fmax(1, fabs(reference));
+    double size = fabs(reference);
+    if (bout->kind != VES_BOUT_FILE || size == 0) size = fmax(1, size);
+    return reference + gap * size;
 }
 
 int ves_suite_runs(const ves_suite *suite)

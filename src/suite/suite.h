@@ -64,8 +64,9 @@ void ves_suite_destroy(ves_suite *suite); /* NULL: nothing */
 
 double ves_suite_budget(const ves_suite *suite, int n);
 
-/* The value that meets a target: reference + gap max(1, |reference|). */
-double ves_suite_value(double reference, double gap);
+/* The value that meets a target: reference + gap max(1, |reference|); of a problem file, whose values have
+ * units, reference + gap |reference|. */
+double ves_suite_value(const ves_bout *bout, double reference, double gap);
 
 /* The runs in their order: methods, then problems, then seeds, so that a method that is added comes last. */
 typedef struct ves_suite_place {

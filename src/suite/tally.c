@@ -35,11 +35,12 @@ static ves_reference reference_of(const ves_tally_input *input, int bout)
     return r;
 }
 
-double ves_tally_dearness(const ves_suite *suite, const ves_outcome *outcome, double reference)
+double ves_tally_dearness(const ves_suite *suite, const ves_bout *bout, const ves_outcome *outcome,
+                          double reference)
 {
     double sum = 0;
     for (int t = 0; t < VES_TARGETS; t++) {
-        double cost = ves_outcome_reach(outcome, ves_suite_value(reference, suite->target[t]));
+        double cost = ves_outcome_reach(outcome, ves_suite_value(bout, reference, suite->target[t]));
         sum += log10(isfinite(cost) && !isnan(reference) ? cost : 10 * outcome->budget);
     }
     return sum / VES_TARGETS;
@@ -54,7 +55,7 @@ typedef struct space {
 static void score_target(const bundle *b, double reference, int t, space *room, ves_score *score)
 {
     const ves_suite *s = b->input->suite;
-    double value = ves_suite_value(reference, s->target[t]);
+    double value = ves_suite_value(&s->bout[b->bout], reference, s->target[t]);
     bool last = t == VES_TARGETS - 1, timed = true;
     int n = 0;
     for (int k = 0; k < s->seeds; k++) {
@@ -126,8 +127,8 @@ static ves_pair pair_of(const ves_tally *tally, const ves_tally_input *input, in
         int begin = n;
         for (int k = 0; k < s->seeds; k++) {
             if (!a.run[k].done || !b.run[k].done) continue;
-            x[n] = ves_tally_dearness(s, &a.run[k], tally->reference[p].value);
-            y[n] = ves_tally_dearness(s, &b.run[k], tally->reference[p].value);
+            x[n] = ves_tally_dearness(s, &s->bout[p], &a.run[k], tally->reference[p].value);
+            y[n] = ves_tally_dearness(s, &s->bout[p], &b.run[k], tally->reference[p].value);
             pair.pairs += x[n] != y[n];
             n++;
         }

@@ -63,7 +63,8 @@ void ves_tally_destroy(ves_tally *tally);
 
 /* How dear a run was, for comparisons: the mean over the targets of log10 of the cost until each was met; one
  * that was not counts ten budgets. */
-double ves_tally_dearness(const ves_suite *suite, const ves_outcome *outcome, double reference);
+double ves_tally_dearness(const ves_suite *suite, const ves_bout *bout, const ves_outcome *outcome,
+                          double reference);
 
 /* The value of a run that counts: feasible, at its end. INFINITY: none. */
 double ves_tally_value(const ves_outcome *outcome);

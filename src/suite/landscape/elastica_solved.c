@@ -8,8 +8,13 @@
 
 enum { B1 = VES_ELASTICA_HALF, STEPS = 60 };
 
-static const double bounds[VES_ELASTICA - 1][2] = {{0.2, 2},    {-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5},
-                                                   {-0.5, 0.5}, {-0.5, 0.5}, {-0.5, 0.5}};
+static const double bounds[VES_ELASTICA - 1][2] = {{0.2, 2},
+                                                   {-1.0 / 4, 1.0 / 4},
+                                                   {-1.0 / 6, 1.0 / 6},
+                                                   {-1.0 / 8, 1.0 / 8},
+                                                   {-1.0 / 4, 1.0 / 4},
+                                                   {-1.0 / 6, 1.0 / 6},
+                                                   {-1.0 / 8, 1.0 / 8}};
 
 static double optimum(int n, double *x)
 {
