@@ -7,7 +7,7 @@
  * max(|c_0|, max_i |dc/du_i|): a constraint may be told in any units, if only its tolerance is told in them
  * too. What NLopt returns is not looked at but for the reason: the best is what we have seen ourselves. */
 
-enum { RUNS = 5, CHOICES = 3, RELAX = 20 };
+enum { RUNS = 5, CHOICES = 3, RELAX = 20, WINDOWS = 30 };
 
 /* NLopt's own loops: questions in a row for one point (they come by threes, and a model that is stiffened ten
  * times each until it yields passes 300); steps for one dual problem, where NLopt itself allows ten times
@@ -98,7 +98,8 @@ bool ves_descent_create(ves_descent *d, ves_session *session, int member, const 
 {
     size_t n = (size_t)session->n, m = (size_t)session->m;
     ves_arena *arena = &session->arena;
-    *d = (ves_descent){.session = session, .options = options, .budget = budget, .runs = RUNS};
+    *d = (ves_descent){
+        .session = session, .options = options, .budget = budget, .runs = RUNS, .rival = HUGE_VAL};
     ves_asker_init(&d->asker, session, member);
     if (!share_create(d)) return false;
     d->recipe = ves_recipe_find(options->algorithm, session->n, session->problem->gradients);
@@ -237,6 +238,18 @@ static ves_status mend(ves_descent *d)
     return VES_OK;
 }
 
+/* Falling on as in the last window, it would take more than a few of them to come below the rival. */
+static bool hopeless(ves_descent *d)
+{
+    const ves_verdict *best = &d->best.verdict;
+    bool feasible = best->status == VES_OK && best->violation <= d->session->tolerance;
+    double now = feasible ? best->value : HUGE_VAL;
+    bool small = feasible && WINDOWS * (d->marked - now) < now - d->rival;
+    d->mark = d->used;
+    d->marked = now;
+    return small;
+}
+
 static ves_status judge(ves_descent *d, bool slopes)
 {
     const ves_session *session = d->session;
@@ -255,6 +268,10 @@ static ves_status judge(ves_descent *d, bool slopes)
         memcpy(d->broken, d->u, (size_t)session->n * sizeof(double));
     }
     ves_asker_record(&d->asker, told, NAN, remember(d));
+    if (d->rival < HUGE_VAL && d->used - d->mark >= d->window && hopeless(d)) {
+        d->hopeless = true;
+        return VES_INTERRUPTED;
+    }
     if (exact && last->status == VES_OK) return mend(d);
     if (slopes && last->status == VES_OK)
         for (int i = 0; i < session->n; i++) VES_TRY(slope(d, i));
@@ -471,7 +488,9 @@ static void forget(ves_descent *d, const ves_point *start)
         d->size[j] = d->session->usual;
         d->price[j] = 0;
     }
-    d->halted = d->spent = d->asked = false;
+    d->halted = d->spent = d->asked = d->hopeless = false;
+    d->mark = d->used;
+    d->marked = HUGE_VAL;
     d->scale = d->shrink = d->reach = 1;
     d->offset = d->lowest = d->highest = d->penalty = 0;
     d->choices = 0;
@@ -587,6 +606,7 @@ bool ves_descent_spent(const ves_descent *d)
 const char *ves_descent_sentence(const ves_descent *d)
 {
     if (ves_descent_spent(d)) return "the budget of evaluations is spent";
+    if (d->hopeless) return "given up: it falls too slowly to come below what is known";
     if (d->lost) return d->lost;
     return d->beside ? "ended beside a candidate that cannot be measured" : ves_recipe_sentence(d->code);
 }

@@ -33,6 +33,10 @@ typedef struct ves_descent {
     bool halfway;               /* the Lagrangian holds all: they contradict each other */
     double *range;              /* [n] upper - lower */
 
+    double rival;               /* a descent that will not come below this is given up; HUGE_VAL: none */
+    long window, mark;          /* evaluations between two looks at its progress; the last look */
+    double marked;              /* value then; HUGE_VAL: not feasible */
+    bool hopeless;              /* it was given up */
     int runs;                   /* of the algorithm at most, each from the end of the one before */
     long budget, used, repeats; /* evaluations of this task; questions for the same point in a row */
     nlopt_opt opt;              /* while it runs */

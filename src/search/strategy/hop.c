@@ -78,6 +78,7 @@ static void *create(ves_team *team, uint32_t stream)
         task *t = &h->task[k];
         if (!ves_descent_create(&t->descent, session, k, &h->quick, 0)) return NULL;
         t->descent.runs = 1;
+        t->descent.window = session->problem->gradients ? 10 : 10 + 10 * session->n;
         h->asker[k] = &t->descent.asker;
         if (!ves_point_create(&session->arena, session->n, session->m, &t->from)) return NULL;
         if (!ves_point_create(&session->arena, session->n, session->m, &t->end)) return NULL;
@@ -183,7 +184,7 @@ static void prepare(hop *h, int k)
 }
 
 /* Descents from where this kernel leads have never fallen so far that one from here could be worth it. */
-static bool hopeless(const hop *h, const task *t)
+static bool beyond(const hop *h, const task *t)
 {
     const falls *r = &h->fall[t->kernel];
     if (r->count < FALLS || h->session->m || t->from.verdict.status != VES_OK) return false;
@@ -205,7 +206,7 @@ static void run(void *data, int worker, int index)
         ves_ask ask = {.x = t->from.x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
         if (ves_asker_judge(&t->descent.asker, &ask, &t->from.verdict) != VES_OK) return;
         ves_asker_record(&t->descent.asker, false, NAN, false);
-        if (!hopeless(h, t)) break;
+        if (!beyond(h, t)) break;
     }
     t->descent.budget -= t->looks;
     t->start = t->from.verdict.value;
@@ -223,8 +224,9 @@ static void judge(hop *h, task *t)
         same || fabs(t->end.verdict.value - h->current.verdict.value) <= alike * fabs(t->end.verdict.value);
     bool better = ves_session_better(session, &t->end.verdict, &h->current.verdict);
     ves_archive_add(&h->team->archive, &t->end, t->kernel == BLIND);
-    ves_team_take(h->team, &t->end);
     h->cost[t->kernel] += (double)(t->looks + t->descent.used);
+    ves_team_take(h->team, &t->end);
+    if (t->descent.hopeless) return;
     if (t->from.verdict.status == VES_OK && t->end.verdict.status == VES_OK) {
         falls *r = &h->fall[t->kernel];
         r->fall[r->count++ % FALLS] = t->start - t->end.verdict.value;
@@ -255,11 +257,15 @@ static void turn_back(hop *h)
 static ves_status hop_round(hop *h, long each)
 {
     ves_session *session = h->session;
+    const ves_verdict *current = &h->current.verdict;
+    bool feasible = current->status == VES_OK && current->violation <= session->tolerance;
+    const double rival = feasible ? current->value : HUGE_VAL;
     const int width = h->rounds ? WIDTH : 1;
     for (int k = 0; k < width; k++) {
         prepare(h, k);
         h->task[k].descent.used = 0;
         h->task[k].descent.budget = each;
+        h->task[k].descent.rival = rival;
     }
     VES_TRY(ves_session_round(session, h->asker, width, run, h));
     if (session->m) {
