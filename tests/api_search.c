@@ -43,6 +43,9 @@ Test(api_search, a_callback_is_minimised_and_its_journal_read)
         .n = 2, .m = 1, .lower = lower, .upper = upper, .start = start, .gradients = true, .evaluate = disk};
     ves_search_options options = ves_search_options_default();
     options.evaluations = 2000;
+    options.stages = 2;
+    options.stage[0].kind = VES_STAGE_ANNEAL;
+    options.stage[1].kind = VES_STAGE_POLISH;
     told t = {0};
     const ves_search_hooks hooks = {.keep = count_records, .data = &t};
     ves_search_result *result;

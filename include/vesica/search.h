@@ -72,14 +72,16 @@ typedef struct ves_anneal {
     double weight; /* of f per unit of violation; 0: from the data, grown while the best is infeasible */
 } ves_anneal;
 
-/* What may be written in a slot, and the words of `as`. False: there are no more. */
+/* What may be written in a slot of an annealing, the words of `as`, and those of `only`. False: there are no
+ * more. */
 typedef enum ves_slot {
     VES_SLOT_PROPOSAL,
     VES_SLOT_SCHEDULE,
     VES_SLOT_POPULATION,
     VES_SLOT_CONSTRAINTS,
     VES_SLOT_POLISH,
-    VES_SLOT_PRESET
+    VES_SLOT_PRESET,
+    VES_SLOT_STRATEGY /* what ves_auto.only may say */
 } ves_slot;
 typedef struct ves_choice {
     const char *name, *about;
@@ -101,7 +103,7 @@ typedef struct ves_polish {
 /* A portfolio of strategies that share the budget by their progress. */
 typedef struct ves_auto {
     long evaluations; /* budget of the stage; 0: from the number of variables */
-    const char *only; /* the name of the one strategy: hop, cma, lines; NULL: those that fit */
+    const char *only; /* the name of the one strategy; NULL: those that fit */
 } ves_auto;
 
 typedef enum ves_stage_kind { VES_STAGE_ANNEAL, VES_STAGE_POLISH, VES_STAGE_AUTO } ves_stage_kind;

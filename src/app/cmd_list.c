@@ -141,6 +141,12 @@ static void constraints(app *a, sink *s)
     choices(s, VES_SLOT_CONSTRAINTS);
 }
 
+static void strategies(app *a, sink *s)
+{
+    (void)a;
+    choices(s, VES_SLOT_STRATEGY);
+}
+
 static void formats(app *a, sink *s)
 {
     (void)a;
@@ -200,17 +206,10 @@ static void functions(app *a, sink *s)
 static const struct list {
     const char *name;
     void (*fill)(app *a, sink *s);
-} lists[] = {{"measures", measures},
-             {"curves", curves},
-             {"moves", moves},
-             {"algorithms", algorithms},
-             {"proposals", proposals},
-             {"schedules", schedules},
-             {"populations", populations},
-             {"constraints", constraints},
-             {"formats", formats},
-             {"units", units},
-             {"templates", templates},
+} lists[] = {{"measures", measures},       {"curves", curves},         {"moves", moves},
+             {"algorithms", algorithms},   {"proposals", proposals},   {"schedules", schedules},
+             {"populations", populations}, {"strategies", strategies}, {"constraints", constraints},
+             {"formats", formats},         {"units", units},           {"templates", templates},
              {"functions", functions}};
 
 enum { LISTS = sizeof lists / sizeof *lists };
@@ -238,8 +237,8 @@ int app_list(app *a)
     }
     int near = word ? ves_text_nearest(word, name, LISTS) : -1;
     if (near >= 0) return app_fail(a, VES_USAGE, "no list \"%s\", did you mean \"%s\"?", word, name[near]);
-    return app_fail(
-        a, VES_USAGE,
-        "list what? measures, curves, moves, algorithms, proposals, schedules, populations, constraints, "
-        "formats, units, templates or functions");
+    return app_fail(a, VES_USAGE,
+                    "list what? measures, curves, moves, algorithms, proposals, schedules, populations, "
+                    "strategies, constraints, "
+                    "formats, units, templates or functions");
 }

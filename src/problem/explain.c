@@ -211,14 +211,16 @@ static void algorithm_help(help *h)
 
 static void choice_help(help *h)
 {
-    static const char *const key[] = {"proposal", "schedule", "population", "constraints", "polish", "as"};
+    static const char *const key[] = {"proposal", "schedule", "population", "constraints",
+                                      "polish",   "as",       "only"};
     ves_choice choice;
-    for (int slot = 0; slot <= VES_SLOT_PRESET; slot++)
+    for (int slot = 0; slot <= VES_SLOT_STRATEGY; slot++)
         for (int k = 0; ves_search_choice((ves_slot)slot, k, &choice); k++) {
             if (!is_word(h, choice.name)) continue;
             heading(h);
-            ves_write(&h->writer, "%s: a word of anneal.%s\n      %s\n      example: {anneal: {%s: %s}}\n",
-                      choice.name, key[slot], choice.about, key[slot], choice.name);
+            const char *stage = slot == VES_SLOT_STRATEGY ? "auto" : "anneal";
+            ves_write(&h->writer, "%s: a word of %s.%s\n      %s\n      example: {%s: {%s: %s}}\n",
+                      choice.name, stage, key[slot], choice.about, stage, key[slot], choice.name);
         }
 }
 

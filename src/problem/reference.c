@@ -132,10 +132,11 @@ static void measures(ves_writer *w, const ves_measure *const *plugin)
 
 static void choices(ves_writer *w)
 {
-    static const char *const key[] = {"proposal", "schedule", "population", "constraints", "polish", "as"};
+    static const char *const key[] = {"proposal", "schedule", "population", "constraints",
+                                      "polish",   "as",       "only"};
     ves_choice choice;
-    ves_write(w, "\n### Words of `anneal`\n\n| key | word | |\n| --- | --- | --- |\n");
-    for (int slot = 0; slot <= VES_SLOT_PRESET; slot++)
+    ves_write(w, "\n### Words of `anneal` and `auto`\n\n| key | word | |\n| --- | --- | --- |\n");
+    for (int slot = 0; slot <= VES_SLOT_STRATEGY; slot++)
         for (int k = 0; ves_search_choice((ves_slot)slot, k, &choice); k++) {
             ves_write(w, "| `%s` | `%s` | ", key[slot], choice.name);
             cell_text(w, choice.about);

@@ -246,7 +246,13 @@ static const ves_entry polish_keys[] = {
     {{"escape", VES_FLAG, .fallback = 1, .about = "leaves a saddle along a direction of negative curvature"}, "escape: true", NULL},
     END};
 
+static const ves_entry auto_keys[] = {
+    {{"only", KIND(VES_SLOT_WORD), .max = VES_SLOT_STRATEGY, .about = "one strategy instead of all"}, "only: cma", NULL},
+    {{"evaluations", VES_COUNT, .min = 0, .max = 2e9, .about = "budget; 0: from the number of variables"}, "evaluations: 20000", NULL},
+    END};
+
 static const ves_entry stages[] = {
+    {{"auto", KIND(VES_MAP), .about = "a portfolio of strategies that share the budget by their progress"}, "auto: {evaluations: 20000}", auto_keys},
     {{"anneal", KIND(VES_MAP), .about = "Metropolis annealing"}, "anneal: {evaluations: 20000}", anneal_keys},
     {{"polish", KIND(VES_MAP), .about = "local search by NLopt"}, "polish: {algorithm: slsqp}", polish_keys},
     END};

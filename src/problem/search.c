@@ -64,7 +64,7 @@ static void set_choice(ves_reader *reader, const ves_fields *f, const char *name
     if (*value) return;
     const char *near = ves_reader_suggestion(reader, x->node->text, known, count);
     ves_reader_error(reader, VES_NAME, x->node, "\"%s\" knows no \"%.80s\"%s%s", name, x->node->text, near,
-                     *near ? "" : " (vesica explain anneal tells the words)");
+                     *near ? "" : " (vesica explain tells the words)");
 }
 
 static void read_slots(ves_reader *reader, const ves_fields *f, ves_anneal *a)
@@ -130,10 +130,10 @@ static ves_polish read_polish(ves_reader *reader, const ves_fields *f)
 
 static void unknown_stage(ves_reader *reader, const ves_node *word)
 {
-    static const char *const name[] = {"anneal", "polish"};
-    const char *near = ves_reader_suggestion(reader, word->text, name, 2);
-    ves_reader_error(reader, VES_NAME, word, "no stage \"%.80s\"%s (known: anneal, polish; or auto for all)",
-                     word->text, near);
+    static const char *const name[] = {"auto", "anneal", "polish"};
+    const char *near = ves_reader_suggestion(reader, word->text, name, 3);
+    ves_reader_error(reader, VES_NAME, word, "no stage \"%.80s\"%s (known: auto, anneal, polish)", word->text,
+                     near);
 }
 
 /* Either a mapping of keys, or the first key alone: {polish: slsqp}. */
@@ -152,7 +152,8 @@ static void read_stage(ves_reader *reader, const ves_node *node, ves_search_opti
     const ves_node *word = node, *value = &nothing;
     if (node->kind == VES_NODE_MAP && node->count == 1) word = node->key[0], value = node->item[0];
     if (word->kind != VES_NODE_WORD) {
-        ves_reader_error(reader, VES_SYNTAX, node, "a stage must be {anneal: {...}} or {polish: {...}}");
+        ves_reader_error(reader, VES_SYNTAX, node,
+                         "a stage must be {auto: {...}}, {anneal: {...}} or {polish: {...}}");
         return;
     }
     const ves_entry *stage = ves_schema_find(stage_table(), word->text);
@@ -161,13 +162,17 @@ static void read_stage(ves_reader *reader, const ves_node *node, ves_search_opti
         unknown_stage(reader, word);
     } else if (stage_fields(reader, stage, value, &f) && options->stages < VES_STAGES) {
         ves_stage *out = &options->stage[options->stages++];
-        *out = (ves_stage){
-            .kind = VES_STAGE_ANNEAL, .anneal = ves_anneal_default(), .polish = ves_polish_default()};
-        if (!strcmp(stage->key.name, "polish")) out->kind = VES_STAGE_POLISH;
-        if (out->kind == VES_STAGE_POLISH)
+        *out = (ves_stage){.kind = VES_STAGE_ANNEAL};
+        if (!strcmp(stage->key.name, "polish")) {
+            out->kind = VES_STAGE_POLISH;
             out->polish = read_polish(reader, &f);
-        else
+        } else if (!strcmp(stage->key.name, "auto")) {
+            out->kind = VES_STAGE_AUTO;
+            set_choice(reader, &f, "only", &out->automatic.only);
+            set_long(reader, &f, "evaluations", &out->automatic.evaluations);
+        } else {
             out->anneal = read_anneal(reader, &f);
+        }
     }
 }
 

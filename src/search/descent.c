@@ -7,7 +7,7 @@
  * max(|c_0|, max_i |dc/du_i|): a constraint may be told in any units, if only its tolerance is told in them
  * too. What NLopt returns is not looked at but for the reason: the best is what we have seen ourselves. */
 
-enum { RUNS = 5, CHOICES = 3, RELAX = 20, WINDOWS = 30 };
+enum { RUNS = 5, CHOICES = 3 };
 
 /* NLopt's own loops: questions in a row for one point (they come by threes, and a model that is stiffened ten
  * times each until it yields passes 300); steps for one dual problem, where NLopt itself allows ten times
@@ -16,7 +16,6 @@ enum { HANG = 2000, DUAL_STEPS = 10000 };
 
 static const double difference = 3e-8;    /* step in u: about sqrt(rounding) */
 static const double proportional = 1e-12; /* exact slopes that differ by so little are those of one thing */
-static const double stride = 0.05, flatter = 0.3;
 static const double squeezed =
     1e-6; /* in u: a line search that ends so near to a failed candidate ran into it */
 
@@ -238,18 +237,6 @@ static ves_status mend(ves_descent *d)
     return VES_OK;
 }
 
-/* Falling on as in the last window, it would take more than a few of them to come below the rival. */
-static bool hopeless(ves_descent *d)
-{
-    const ves_verdict *best = &d->best.verdict;
-    bool feasible = best->status == VES_OK && best->violation <= d->session->tolerance;
-    double now = feasible ? best->value : HUGE_VAL;
-    bool small = feasible && WINDOWS * (d->marked - now) < now - d->rival;
-    d->mark = d->used;
-    d->marked = now;
-    return small;
-}
-
 static ves_status judge(ves_descent *d, bool slopes)
 {
     const ves_session *session = d->session;
@@ -268,7 +255,7 @@ static ves_status judge(ves_descent *d, bool slopes)
         memcpy(d->broken, d->u, (size_t)session->n * sizeof(double));
     }
     ves_asker_record(&d->asker, told, NAN, remember(d));
-    if (d->rival < HUGE_VAL && d->used - d->mark >= d->window && hopeless(d)) {
+    if (d->rival < HUGE_VAL && d->used - d->mark >= d->window && ves_descent_hopeless(d)) {
         d->hopeless = true;
         return VES_INTERRUPTED;
     }
@@ -406,7 +393,7 @@ static nlopt_result set_up(ves_descent *d, double step, double factor)
 
 /* The largest slope at the candidate just looked at; without slopes, a guess from the spread or the size of
  * f. */
-static double steepest(const ves_descent *d)
+double ves_descent_steepest(const ves_descent *d)
 {
     double most = 0;
     for (int i = 0; d->sloped && i < d->session->n; i++)
@@ -445,7 +432,7 @@ static ves_status rescale(ves_descent *d, const double *u, bool first)
     resize(d);
     if (first || told) share(d, told);
     double size = fmax(fabs(d->last.value), d->session->spread);
-    double most = steepest(d);
+    double most = ves_descent_steepest(d);
     if (first) {
         d->first_scale = most > 1e-12 * size ? most : size > 0 ? size : 1;
         d->scale = d->first_scale;
@@ -550,26 +537,6 @@ static bool contrary(const ves_descent *d)
            d->inequalities + d->equalities > 0;
 }
 
-/* Walks off a place where the slopes are of another size than everywhere else: scaled by them, no algorithm
- * would see the rest. Steps of a part of the box down the slope, as long as each leads to far less of it. */
-static ves_status relax(ves_descent *d, ves_point *point)
-{
-    const int n = d->session->n;
-    VES_TRY(ves_descent_look(d, point->u, true));
-    memcpy(d->route, point->u, (size_t)n * sizeof(double));
-    for (int k = 0; k < RELAX && d->last.status == VES_OK; k++) {
-        double steep = steepest(d);
-        for (int i = 0; steep > 0 && i < n; i++) {
-            double to = d->route[i] - stride * d->last.gradient[i] * d->range[i] / steep;
-            d->route[i] = to < 0 ? 0 : to > 1 ? 1 : to;
-        }
-        VES_TRY(ves_descent_look(d, d->route, true));
-        if (d->last.status != VES_OK || !(steepest(d) < flatter * steep)) break;
-    }
-    if (d->best.verdict.status == VES_OK) ves_point_copy(point, &d->best, n, d->session->m);
-    return VES_OK;
-}
-
 ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *end)
 {
     int n = d->session->n, m = d->session->m;
@@ -578,7 +545,7 @@ ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *en
     ves_status status = VES_OK;
     double step = 0.1;
     bool due = true;
-    if (d->recipe.gradient && d->session->problem->gradients && !m) status = relax(d, end);
+    if (d->recipe.gradient && d->session->problem->gradients && !m) status = ves_descent_relax(d, end);
     for (int k = 0; (k < d->runs || due) && status == VES_OK && !d->halted; k++, step *= 0.3) {
         bool limited = d->reach < 1;
         status = descend(d, d->turned ? &d->aside : end, k == 0, step);

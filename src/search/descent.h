@@ -89,6 +89,13 @@ const char *ves_descent_sentence(const ves_descent *descent);
  * VES_INTERRUPTED also when the budget is spent; VES_NO_NUMBER for a u that is none: nothing was asked. */
 ves_status ves_descent_look(ves_descent *descent, const double *u, bool slopes);
 
+/* The steepest slope of the value at what was last looked at, across the box; 0 without slopes. */
+double ves_descent_steepest(const ves_descent *descent);
+
+/* quick.c: walks off a start that is steeper than everything else; is it worth going on? */
+ves_status ves_descent_relax(ves_descent *descent, ves_point *point);
+bool ves_descent_hopeless(ves_descent *descent);
+
 /* The steepest slope of constraint j at what was last looked at with slopes, across the box. */
 double ves_descent_slope(const ves_descent *descent, int j);
 

@@ -74,8 +74,7 @@ static ves_status check_polish(const ves_polish *p)
 
 static ves_status check_auto(const ves_auto *a)
 {
-    bool known = !a->only || ves_strategy_known(a->only);
-    return known && !bad_budget(a->evaluations) ? VES_OK : VES_RANGE;
+    return ves_slots_known(VES_SLOT_STRATEGY, a->only) && !bad_budget(a->evaluations) ? VES_OK : VES_RANGE;
 }
 
 ves_status ves_search_check(const ves_search_problem *problem, const ves_search_options *options)

@@ -2,13 +2,13 @@
 #include <string.h>
 
 #include "search/descent.h"
+#include "search/slots.h"
 #include "search/spread.h"
-#include "search/strategy/strategy.h"
 
 /* The portfolio: strategies that take turns, each with a share of the evaluations that follows its progress.
  * Every one is paused, never thrown away, so that none loses what it has learned. */
 
-enum { MEMBERS = 4, SLICE = 16 };
+enum { MEMBERS = 16, SLICE = 16 };
 
 typedef struct member {
     const ves_strategy *strategy;
@@ -33,6 +33,7 @@ typedef struct portfolio {
     bool unfinished;   /* it had not converged */
     long proofs;       /* that may still be asked for */
     const char *only;  /* the one member, or NULL */
+    long started;      /* ends that were there at first */
 } portfolio;
 
 bool ves_team_take(ves_team *team, const ves_point *point)
@@ -45,8 +46,6 @@ bool ves_team_take(ves_team *team, const ves_point *point)
 
 static bool add(portfolio *p, const ves_strategy *strategy, double share)
 {
-    bool chosen = p->only ? !strcmp(p->only, strategy->name) : !strategy->fits || strategy->fits(p->session);
-    if (!chosen) return true;
     member *m = &p->member[p->members];
     uint32_t stream = (uint32_t)p->session->stage_index << 20 | (uint32_t)(p->members + 1) << 16;
     *m = (member){.strategy = strategy, .base = share, .share = share};
@@ -55,15 +54,12 @@ static bool add(portfolio *p, const ves_strategy *strategy, double share)
     return m->state;
 }
 
-/* Shares at first of hop, cma, lines. Where gradients lead, descents are most of the work; on the thin sets that
- * constraints leave, only descents find their way. */
-static const double SHARE[4][3] = {{0.35, 0.5, 0.15}, {0.5, 0.3, 0.15}, {0.7, 0.2, 0.1}, {0.9, 0.08, 0.04}};
-
-static int shares_of(const ves_session *session)
+static ves_ground ground_of(const ves_session *session)
 {
     for (int j = 0; j < session->m; j++)
-        if (ves_session_equality(session, j)) return 3;
-    return session->m ? 2 : session->problem->gradients;
+        if (ves_session_equality(session, j)) return VES_GROUND_EQUATIONS;
+    if (session->m) return VES_GROUND_INEQUALITIES;
+    return session->problem->gradients ? VES_GROUND_GRADIENTS : VES_GROUND_VALUES;
 }
 
 static bool create(portfolio *p)
@@ -83,9 +79,14 @@ static bool create(portfolio *p)
         ves_archive_add(&p->team.archive, &session->end[k].point, false);
         ves_team_take(&p->team, &session->end[k].point);
     }
-    const double *share = SHARE[shares_of(session)];
-    return add(p, &ves_strategy_hop, share[0]) && add(p, &ves_strategy_cma, share[1]) &&
-           add(p, &ves_strategy_lines, share[2]);
+    p->started = p->team.archive.met;
+    const ves_ground ground = ground_of(session);
+    for (const ves_strategy *const *each = ves_slots_strategies(); *each; each++) {
+        bool chosen = p->only ? !strcmp(p->only, (*each)->name) : (*each)->share[ground] > 0;
+        if (chosen && p->members < MEMBERS && !add(p, *each, p->only ? 1 : (*each)->share[ground]))
+            return false;
+    }
+    return true;
 }
 
 static long left(const portfolio *p)
@@ -192,10 +193,11 @@ static ves_status finish(portfolio *p)
     if (!ves_session_over(session))
         ves_session_stop(session, VES_ENDED_BUDGET, "auto: its budget of %ld evaluations is spent",
                          p->budget);
-    if (!ves_session_over(session) && !archive->blind)
-        ves_session_note(session,
-                         "the budget of %ld evaluations was too short to descend from more than the start",
-                         p->budget);
+    if (!ves_session_over(session) && !p->only && archive->met <= p->started + 2)
+        ves_session_note(
+            session,
+            "the budget of %ld evaluations was too short for auto to do more than descend from the start",
+            p->budget);
     session->end = archive->end;
     session->ends = archive->count;
     return VES_OK;
@@ -265,14 +267,6 @@ static ves_status look_round(portfolio *p)
     double typical = ves_median_above(l->violation, LOOKERS * l->looks, session->tolerance);
     p->team.weight = 2 * (width > 0 ? width : 1) / (typical > 0 ? typical : session->usual);
     return status;
-}
-
-bool ves_strategy_known(const char *name)
-{
-    static const ves_strategy *const all[] = {&ves_strategy_hop, &ves_strategy_lines, &ves_strategy_cma};
-    for (int k = 0; k < 3; k++)
-        if (!strcmp(name, all[k]->name)) return true;
-    return false;
 }
 
 ves_status ves_portfolio_run(ves_session *session, const ves_auto *options, long budget)

@@ -166,7 +166,6 @@ void ves_asker_destroy(ves_asker *asker);
 ves_status ves_search_begin(ves_session *session); /* measures the start, or finds one that can be measured */
 ves_status ves_anneal_run(ves_session *session, const ves_anneal *options, long budget);
 ves_status ves_portfolio_run(ves_session *session, const ves_auto *options, long budget);
-bool ves_strategy_known(const char *name);
 ves_status ves_polish_run(ves_session *session, const ves_polish *options, long budget);
 
 /* Distinct ends, and the result. */

@@ -26,6 +26,12 @@ static const ves_constraint *const CONSTRAINTS[] = {
 #undef VES_ENTRY
     NULL};
 
+static const ves_strategy *const STRATEGIES[] = {
+#define VES_ENTRY(symbol) &symbol,
+#include "strategies.inc"
+#undef VES_ENTRY
+    NULL};
+
 /* Not one file each: these say when descents are called, not how. */
 static const ves_choice *const POLISHES[] = {
     &(const ves_choice){"none", "the ends are where the chains end"},
@@ -66,6 +72,11 @@ const ves_constraint *ves_slots_constraint(const char *name)
     FIND(CONSTRAINTS, name);
 }
 
+const ves_strategy *const *ves_slots_strategies(void)
+{
+    return STRATEGIES;
+}
+
 /* The one at index of a list whose end is NULL; what lies behind the end is not looked at. */
 #define TELL(list)                                                                                           \
     for (int k = 0; list[k] && k <= index; k++)                                                              \
@@ -88,12 +99,14 @@ bool ves_search_choice(ves_slot slot, int index, ves_choice *choice)
         TELL(POLISHES);
     case VES_SLOT_PRESET:
         TELL(PRESETS);
+    case VES_SLOT_STRATEGY:
+        TELL(STRATEGIES);
     }
     *choice = found;
     return found.name;
 }
 
-static bool known(ves_slot slot, const char *name)
+bool ves_slots_known(ves_slot slot, const char *name)
 {
     ves_choice choice;
     if (!name) return true;
@@ -104,9 +117,11 @@ static bool known(ves_slot slot, const char *name)
 
 bool ves_slots_check(const ves_anneal *a)
 {
-    bool words = known(VES_SLOT_PRESET, a->as) && known(VES_SLOT_PROPOSAL, a->proposal) &&
-                 known(VES_SLOT_SCHEDULE, a->schedule) && known(VES_SLOT_POPULATION, a->population) &&
-                 known(VES_SLOT_CONSTRAINTS, a->constraints) && known(VES_SLOT_POLISH, a->polish);
+    bool words = ves_slots_known(VES_SLOT_PRESET, a->as) && ves_slots_known(VES_SLOT_PROPOSAL, a->proposal) &&
+                 ves_slots_known(VES_SLOT_SCHEDULE, a->schedule) &&
+                 ves_slots_known(VES_SLOT_POPULATION, a->population) &&
+                 ves_slots_known(VES_SLOT_CONSTRAINTS, a->constraints) &&
+                 ves_slots_known(VES_SLOT_POLISH, a->polish);
     if (!words) return false;
     ves_anneal whole = *a;
     ves_slots_complete(&whole);

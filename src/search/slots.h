@@ -6,6 +6,7 @@
 #include "search/population/population.h"
 #include "search/proposal/proposal.h"
 #include "search/schedule/schedule.h"
+#include "search/strategy/strategy.h"
 
 #define VES_ENTRY(symbol) extern const ves_proposal symbol;
 #include "proposals.inc"
@@ -20,11 +21,21 @@
 #include "constraints.inc"
 #undef VES_ENTRY
 
+#define VES_ENTRY(symbol) extern const ves_strategy symbol;
+#include "strategies.inc"
+#undef VES_ENTRY
+
 /* NULL: no such name. */
 const ves_proposal *ves_slots_proposal(const char *name);
 const ves_schedule *ves_slots_schedule(const char *name);
 const ves_population *ves_slots_population(const char *name);
 const ves_constraint *ves_slots_constraint(const char *name);
+
+/* All of them, by name; NULL-terminated. */
+const ves_strategy *const *ves_slots_strategies(void);
+
+/* Is it a word of this slot? NULL always is. */
+bool ves_slots_known(ves_slot slot, const char *name);
 
 /* Fills in the words of `as`, and the defaults for what is still open. */
 void ves_slots_complete(ves_anneal *options);

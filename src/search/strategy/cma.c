@@ -161,6 +161,7 @@ static ves_status advance(void *state, long some, long most)
 const ves_strategy ves_strategy_cma = {
     .name = "cma",
     .about = "CMA-ES, restarted with growing populations",
+    .share = {0.5, 0.3, 0.2, 0.08},
     .create = create,
     .least = least,
     .advance = advance,

@@ -312,6 +312,7 @@ static ves_status advance(void *state, long some, long most)
 const ves_strategy ves_strategy_hop = {
     .name = "hop",
     .about = "basin hopping: descents from beside the best minimum, also by differences of known minima",
+    .share = {0.35, 0.5, 0.7, 0.9},
     .create = create,
     .least = least,
     .advance = advance,

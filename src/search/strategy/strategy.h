@@ -13,9 +13,18 @@ typedef struct ves_team {
     double weight;  /* penalty per unit of violation, for those that need one number */
 } ves_team;
 
+/* What decides which strategies lead. */
+typedef enum ves_ground {
+    VES_GROUND_VALUES,       /* no constraints and no gradients */
+    VES_GROUND_GRADIENTS,    /* no constraints */
+    VES_GROUND_INEQUALITIES, /* no equations */
+    VES_GROUND_EQUATIONS,    /* thin feasible sets, where only descents find their way */
+    VES_GROUNDS
+} ves_ground;
+
 typedef struct ves_strategy {
     const char *name, *about;
-    bool (*fits)(const ves_session *session); /* NULL: any problem */
+    double share[VES_GROUNDS]; /* of the evaluations at first, to those of others; 0: not there */
     /* Its random numbers are those of chains stream, stream + 1 ... stream + 255. NULL: out of memory. */
     void *(*create)(ves_team *team, uint32_t stream);
     long (*least)(const void *state); /* evaluations that its next round needs */
@@ -24,8 +33,6 @@ typedef struct ves_strategy {
     void (*refused)(void *state); /* its last best did not pass the proof; NULL: it does not mind */
     void (*destroy)(void *state); /* what is not in the arena; NULL: nothing */
 } ves_strategy;
-
-extern const ves_strategy ves_strategy_hop, ves_strategy_lines, ves_strategy_cma;
 
 /* Takes a measured point that may be the team's best. Returns whether it is. */
 bool ves_team_take(ves_team *team, const ves_point *point);
