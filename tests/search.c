@@ -106,6 +106,7 @@ Test(search, annealing_reports_itself)
     given g = problem_bowl(4);
     g.data = &g;
     ves_search_options o = only_anneal(8000);
+    o.stage[0].anneal.c_end = 1e-4;
     ves_search_result *r;
     cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
     cr_assert(r->temperatures > 20, "%d", r->temperatures);

@@ -63,6 +63,7 @@ static inline ves_search_options only_anneal(long evaluations)
     o.stages = 1;
     o.stage[0] = (ves_stage){.kind = VES_STAGE_ANNEAL, .anneal = ves_anneal_default()};
     o.stage[0].anneal.evaluations = evaluations;
+    o.stage[0].anneal.polish = "none";
     return o;
 }
 

@@ -187,9 +187,15 @@ Test(search_slots, legs_double_within_the_budget)
     long length[40];
     bool fresh[40];
     ves_cooling c = cooling_of(&options, 1, 5, 150000);
+    cr_assert(eq(int, legs_of(&ves_schedule_budget, &c, 0, length, fresh), 8));
+    for (int k = 0; k < 8; k++)
+        cr_expect(fabs(length[k] - 150000.0 / 255 * (1 << k)) < 250, "leg %d: %ld", k, length[k]);
+    c = cooling_of(&options, 1, 40, 150000); /* fifty trials for each variable */
+    cr_assert(eq(int, legs_of(&ves_schedule_budget, &c, 0, length, fresh), 6));
+    c = cooling_of(&options, 1, 5, 5000);
     cr_assert(eq(int, legs_of(&ves_schedule_budget, &c, 0, length, fresh), 4));
     for (int k = 0; k < 4; k++) {
-        cr_expect(labs(length[k] - (10000L << k)) < 200, "leg %d: %ld", k, length[k]);
+        cr_expect(fabs(length[k] - 5000.0 / 15 * (1 << k)) < 20, "leg %d: %ld", k, length[k]);
         cr_expect(fresh[k] == (k > 0));
     }
     c = cooling_of(&options, 1, 5, 400); /* too short for more than one */

@@ -60,13 +60,14 @@ typedef struct ves_anneal {
     const char *schedule;    /* NULL: budget; with s: book */
     const char *population;  /* NULL: chains */
     const char *constraints; /* NULL: lagrangian */
-    const char *polish;      /* when descents are made from where the chains are; NULL: none */
+    const char *polish;      /* when descents are made from where the chains are; NULL: stages, or none
+                                before a stage that polishes */
     long
         evaluations; /* budget of the stage: all chains, descents and proofs; 0: from the number of variables */
     int chains;      /* of the population, 0: as many as it says; never depends on the number of threads */
     double c0;       /* first temperature; 0: measured so that uphill moves are accepted at first */
     double s;     /* schedule (7.3), 0 < s < 1; 0: so that the temperature falls to c_end within the budget */
-    double c_end; /* frozen at c_end * c0; 0: 1e-4 */
+    double c_end; /* frozen at c_end * c0; 0: 1e-4, or 1e-10 when nothing polishes the ends */
     double step;  /* first step width as a fraction of each range; 0: 0.1 */
     bool fixed;   /* widths do not follow the acceptance, covariances are not learnt */
     double weight; /* of f per unit of violation; 0: from the data, grown while the best is infeasible */

@@ -120,11 +120,10 @@ static long polish_budget(const ves_search_problem *problem, const ves_polish *p
 }
 
 /* What stays 0 is found from the data. */
-static void complete_anneal(ves_anneal *a, int n)
+static void complete_anneal(ves_anneal *a, int n, bool followed)
 {
-    ves_slots_complete(a);
+    ves_slots_complete(a, followed);
     if (!a->evaluations) a->evaluations = 2000 + 2000 * (long)n;
-    if (a->c_end == 0) a->c_end = 1e-4;
     if (a->step == 0) a->step = 0.1;
 }
 
@@ -183,7 +182,8 @@ void ves_search_complete(ves_session *session, const ves_search_options *options
             ends = AUTO_STARTS;
             sum += stage->automatic.evaluations;
         } else if (stage->kind == VES_STAGE_ANNEAL) {
-            complete_anneal(&stage->anneal, problem->n);
+            bool followed = k + 1 < session->stages && session->stage[k + 1].kind == VES_STAGE_POLISH;
+            complete_anneal(&stage->anneal, problem->n, followed);
             ends = stage->anneal.chains;
             sum += stage->anneal.evaluations;
         } else {

@@ -124,7 +124,7 @@ bool ves_slots_check(const ves_anneal *a)
                  ves_slots_known(VES_SLOT_POLISH, a->polish);
     if (!words) return false;
     ves_anneal whole = *a;
-    ves_slots_complete(&whole);
+    ves_slots_complete(&whole, false);
     int most = ves_slots_population(whole.population)->most;
     return !most || whole.chains <= most;
 }
@@ -142,7 +142,9 @@ static void keep(ves_slot slot, const char **word)
         if (!strcmp(choice.name, *word)) *word = choice.name;
 }
 
-void ves_slots_complete(ves_anneal *a)
+/* Where something is to polish the ends, cooling to 1e-4 of c0 is enough for it to find the bottom; an annealing that
+ * must find it itself goes on to 1e-10. The book's steps have one width, which lower temperatures cannot use. */
+void ves_slots_complete(ves_anneal *a, bool followed)
 {
     if (a->as) {
         set(&a->proposal, "fixed");
@@ -155,7 +157,9 @@ void ves_slots_complete(ves_anneal *a)
     set(&a->schedule, a->s > 0 ? "book" : "budget");
     set(&a->population, "chains");
     set(&a->constraints, "lagrangian");
-    set(&a->polish, "none");
+    set(&a->polish, followed ? "none" : "stages");
+    bool alone = !followed && !a->as && !strcmp(a->polish, "none");
+    if (a->c_end == 0) a->c_end = alone ? 1e-10 : 1e-4;
     keep(VES_SLOT_PROPOSAL, &a->proposal);
     keep(VES_SLOT_SCHEDULE, &a->schedule);
     keep(VES_SLOT_POPULATION, &a->population);

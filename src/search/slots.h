@@ -37,8 +37,8 @@ const ves_strategy *const *ves_slots_strategies(void);
 /* Is it a word of this slot? NULL always is. */
 bool ves_slots_known(ves_slot slot, const char *name);
 
-/* Fills in the words of `as`, and the defaults for what is still open. */
-void ves_slots_complete(ves_anneal *options);
+/* Fills in the words of `as`, and the defaults for what is still open. followed: a polish is the next stage. */
+void ves_slots_complete(ves_anneal *options, bool followed);
 
 /* Are all words known, and do they go together? */
 bool ves_slots_check(const ves_anneal *options);

@@ -1,11 +1,13 @@
 #include "search/schedule/schedule.h"
 
-/* Exponential to c_end, several times, each from new points and twice as long as the one before: of the budget
- * 1/15, 2/15, 4/15 and 8/15. Nobody knows beforehand how long an annealing must be: so the longest one is half of
- * what there was, and the shorter ones cost no more than it does. What short budgets could not spread over four
- * legs they spend on fewer. What a leg leaves over, frozen early, or a polish gives back, is for further legs. */
+/* Exponential to c_end, several times, each from new points and twice as long as the one before. Nobody knows
+ * beforehand how long an annealing must be: so the longest one is half of what there is, and the shorter ones cost no
+ * more than it does. The shortest makes some fifty trials for each variable: 1/15, 2/15, 4/15, 8/15 of a middling budget,
+ * up to eight legs of a large one (four legs whatever the budget cost easy functions two to four times as much, and
+ * solved no more), one leg of a small one. What a leg leaves over, frozen early, or a polish gives back, is for
+ * further legs. */
 
-enum { LEGS = 4, LEAST = 100 }; /* trials of the shortest leg for each variable */
+enum { LEGS = 8, LEAST = 50 }; /* trials of the shortest leg for each variable */
 
 static long length(const ves_cooling *cooling)
 {
