@@ -78,6 +78,23 @@ Test(cli_bench, goes_on_where_it_was_broken_off, .timeout = 120)
     root_remove();
 }
 
+Test(cli_bench, one_process_at_a_time, .timeout = 120)
+{
+    root_make();
+    write_file("s.yaml", "vesica: 1\nsuite: slow\nproblems: [{function: sphere, n: 2}]\nseeds: 2\n"
+                         "methods: {sleeps: {program: [sleep, \"60\"], seconds: 60}}\n");
+    pid_t child = launch("bench s.yaml --out busy", NULL, "stdout.busy");
+    wait_for_file("busy/suite.yaml");
+    expect(vesica(NULL, "bench --resume busy"), 2, NULL, "process", "taken");
+    kill(child, SIGINT);
+    cr_expect(wait_for(child) == 130);
+    child = launch("bench --resume busy", NULL, "stdout.busy");
+    nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
+    kill(child, SIGTERM);
+    cr_expect(wait_for(child) == 130, "free again, and stopped");
+    root_remove();
+}
+
 /* Killed at any moment. */
 Test(cli_bench, survives_kills, .timeout = 120)
 {

@@ -219,9 +219,10 @@ static ves_status finish(bench *b, ves_status status, ves_bench **out)
     double begin = ves_study_clock();
     if (status == VES_OK) status = all_run(b);
     b->shown.wall = ves_study_clock() - begin;
-    ves_status closed = ves_bench_files_end(&b->files);
-    if (closed == VES_OK && b->files.folder && b->shown.tally.score)
-        closed = ves_bench_report_write(&b->shown, b->diag);
+    ves_status closed = VES_OK;
+    if (b->files.folder && b->shown.tally.score) closed = ves_bench_report_write(&b->shown, b->diag);
+    ves_status ended = ves_bench_files_end(&b->files);
+    if (closed == VES_OK) closed = ended;
     if (status == VES_OK) status = closed;
     if (b->shown.tally.score && b->shown.done > 0)
         *out = &b->shown;
@@ -241,10 +242,9 @@ ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, con
     if (!options->no_files)
         status = options->out ? ves_folder_make(options->out, &b->arena, &folder, diag)
                               : ves_folder_number("runs", suite->name, &b->arena, &folder, diag);
-    if (status == VES_OK && folder) {
-        b->shown.folder = b->files.folder = folder;
-        status = ves_bench_files_begin(&b->files, suite, diag);
-    }
+    b->shown.folder = folder;
+    if (status == VES_OK && folder) status = ves_bench_files_take(&b->files, folder, &b->arena, diag);
+    if (status == VES_OK && folder) status = ves_bench_files_begin(&b->files, suite);
     return finish(b, status, out);
 }
 
@@ -300,9 +300,9 @@ ves_status ves_bench_resume(const char *folder, const ves_read_options *added,
     if (!b) return VES_MEMORY;
     b->shown.folder = ves_arena_text(&b->arena, folder, strlen(folder));
     ves_status status = b->shown.folder ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
+    if (status == VES_OK) status = ves_bench_files_take(&b->files, b->shown.folder, &b->arena, diag);
     if (status == VES_OK)
-        status = ves_bench_files_again(&b->files, b->shown.folder, suite, b->shown.outcome, &b->shown.before,
-                                       diag);
+        status = ves_bench_files_again(&b->files, suite, b->shown.outcome, &b->shown.before);
     if (status == VES_OK && added->overrides) status = ves_bench_suite_write(folder, suite, diag);
     return finish(b, status, out);
 }

@@ -164,15 +164,22 @@ static ves_status open_lines(ves_bench_files *files, const char *mode)
         if (!files->times) status = ves_file_complain(times, errno, files->diag);
     }
     ves_arena_destroy(&arena);
-    if (status != VES_OK) ves_bench_files_end(files);
     return status;
 }
 
-ves_status ves_bench_files_begin(ves_bench_files *files, const ves_suite *suite, ves_diag *diag)
+ves_status ves_bench_files_take(ves_bench_files *files, const char *folder, ves_arena *arena, ves_diag *diag)
+{
+    *files = (ves_bench_files){.lock = {.fd = -1}, .diag = diag};
+    VES_TRY(ves_lock_take(&files->lock, folder, arena, diag));
+    files->folder = folder;
+    return VES_OK;
+}
+
+ves_status ves_bench_files_begin(ves_bench_files *files, const ves_suite *suite)
 {
     ves_arena arena = {0};
+    ves_diag *diag = files->diag;
     char *journals = ves_folder_path(files->folder, "journals", &arena);
-    files->diag = diag;
     ves_status status = journals ? ves_folder_open(journals, &arena, diag) : ves_diag_fail(diag, VES_MEMORY);
     ves_arena_destroy(&arena);
     if (status == VES_OK) status = ves_bench_suite_write(files->folder, suite, diag);
@@ -182,6 +189,7 @@ ves_status ves_bench_files_begin(ves_bench_files *files, const ves_suite *suite,
 ves_status ves_bench_files_end(ves_bench_files *files)
 {
     bool bad = (files->runs && fclose(files->runs)) | (files->times && fclose(files->times));
+    if (files->folder) ves_lock_drop(&files->lock);
     files->runs = files->times = NULL;
     return bad ? ves_file_complain(files->folder, errno, files->diag) : VES_OK;
 }
@@ -350,14 +358,15 @@ static size_t times_read(const char *text, ves_outcome *outcome, int count)
     return (size_t)(at - text);
 }
 
-ves_status ves_bench_files_again(ves_bench_files *files, const char *folder, const ves_suite *suite,
-                                 ves_outcome *outcome, int *runs, ves_diag *diag)
+ves_status ves_bench_files_again(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome,
+                                 int *runs)
 {
+    const char *folder = files->folder;
+    ves_diag *diag = files->diag;
     ves_arena arena = {0};
     char *text = NULL, *clock = NULL, *path = ves_folder_path(folder, "runs.jsonl", &arena);
     char *clock_path = ves_folder_path(folder, "times.jsonl", &arena);
     size_t length = 0, clock_length = 0;
-    *files = (ves_bench_files){.folder = folder, .diag = diag};
     ves_status status = path && clock_path ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
     if (status == VES_OK) status = load(path, &arena, &text, &length, diag);
     if (status == VES_OK) status = load(clock_path, &arena, &clock, &clock_length, diag);

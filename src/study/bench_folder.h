@@ -5,19 +5,24 @@
 #include <stdio.h>
 
 #include "study/bench.h"
+#include "study/lock.h"
 
 /* Open files of a folder in use. */
 typedef struct ves_bench_files {
     const char *folder;
     FILE *runs, *times;
+    ves_lock lock;
     ves_diag *diag;
 } ves_bench_files;
 
+/* Takes a folder for this process alone: the first of all calls. It and the arena must outlive the files. */
+ves_status ves_bench_files_take(ves_bench_files *files, const char *folder, ves_arena *arena, ves_diag *diag);
 /* Makes what a new folder begins with. */
-ves_status ves_bench_files_begin(ves_bench_files *files, const ves_suite *suite, ves_diag *diag);
+ves_status ves_bench_files_begin(ves_bench_files *files, const ves_suite *suite);
 /* Opens those of a folder, whose first `runs` runs hold; what is behind them is cut off. */
-ves_status ves_bench_files_again(ves_bench_files *files, const char *folder, const ves_suite *suite,
-                                 ves_outcome *outcome, int *runs, ves_diag *diag);
+ves_status ves_bench_files_again(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome,
+                                 int *runs);
+/* Closes them and lets the folder go. */
 ves_status ves_bench_files_end(ves_bench_files *files);
 
 /* The journal of a run; from any thread. The status is for the lines. */
