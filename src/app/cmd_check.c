@@ -4,6 +4,7 @@
 
 #include "app/app.h"
 #include "app/table.h"
+#include "study/propose.h"
 #include "study/result.h"
 
 /* What check finds out besides the start design. */
@@ -12,9 +13,12 @@ typedef struct checked {
     ves_patch_facts *facts;
     bool gradients;                   /* every measure that is judged has one */
     double value_time, gradient_time; /* s; NAN: not measured */
+    ves_elimination elimination[2];
+    int eliminations;
 } checked;
 
 static const double PATIENCE = 0.05; /* s for each timing */
+static const double PROPOSING = 0.2; /* s for an evaluation times the variables */
 
 /* Seconds of one evaluation at the start; NAN: it cannot be measured. */
 static double time_one(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict)
@@ -44,6 +48,14 @@ static ves_status timings(app *a, checked *c, ves_plan *plan)
     return VES_OK;
 }
 
+/* Equations that need not be searched for. Not where looking would take long. */
+static ves_status propose(app *a, checked *c, ves_plan *plan)
+{
+    const ves_problem *p = c->run->problem;
+    if (!(c->value_time * p->variables < PROPOSING)) return VES_OK;
+    return ves_study_propose(plan, p, &a->arena, c->elimination, &c->eliminations);
+}
+
 static ves_status look(app *a, checked *c)
 {
     const ves_problem *p = c->run->problem;
@@ -54,6 +66,7 @@ static ves_status look(app *a, checked *c)
     VES_TRY(ves_plan_create(p, &grid, &plan, NULL));
     for (int k = 0; k < p->patches; k++) c->facts[k] = ves_plan_patch(plan, k);
     ves_status status = timings(a, c, plan);
+    if (status == VES_OK) status = propose(a, c, plan);
     ves_plan_destroy(plan);
     return status;
 }
@@ -175,6 +188,31 @@ static void costs(const checked *c)
     fputc('\n', stdout);
 }
 
+/* As the file would have it: "h: {in: [20 mm, 80 mm]}". */
+static void proposals(const checked *c)
+{
+    const ves_problem *p = c->run->problem;
+    char low[32], high[32];
+    for (int k = 0; k < c->eliminations; k++) {
+        const ves_elimination *e = &c->elimination[k];
+        const char *text = p->constraint[e->constraint].text;
+        printf("  %-13s", k ? "or" : "exact");
+        if (e->variable < 0) {
+            printf("%s could be met by similarity, if the size of the shape is free:\n"
+                   "               scale: {equation: %s}\n",
+                   text, text);
+            continue;
+        }
+        const ves_variable *v = &p->variable[e->variable];
+        const char *unit = v->shown.unit, *space = *unit ? " " : "";
+        app_screen_number(v->min / v->shown.factor, low);
+        app_screen_number(v->max / v->shown.factor, high);
+        printf("%s could be met by %s, then no variable any more:\n"
+               "               solve: {unknown: %s, in: [%s%s%s, %s%s%s], equation: %s}\n",
+               text, v->name, v->name, low, space, unit, high, space, unit, text);
+    }
+}
+
 static void json_three(ves_json *json, const char *name, const double value[3])
 {
     ves_json_array(json, name);
@@ -221,6 +259,16 @@ static void json_print(const checked *c)
     ves_json_array(&json, "notes"); /* what is wrong with the start */
     for (int k = 0; k < c->run->notes; k++) ves_json_text(&json, NULL, c->run->note[k]);
     ves_json_end(&json, ']');
+    ves_json_array(&json, "eliminations");
+    for (int k = 0; k < c->eliminations; k++) {
+        const ves_elimination *e = &c->elimination[k];
+        ves_json_object(&json, NULL);
+        ves_json_text(&json, "constraint", p->constraint[e->constraint].text);
+        ves_json_text(&json, "by", e->variable < 0 ? "scale" : "solve");
+        if (e->variable >= 0) ves_json_text(&json, "unknown", p->variable[e->variable].name);
+        ves_json_end(&json, '}');
+    }
+    ves_json_end(&json, ']');
     ves_json_number(&json, "evaluation_s", c->value_time);
     ves_json_number(&json, "gradient_s", c->gradient_time);
     ves_json_end(&json, '}');
@@ -239,6 +287,7 @@ static int report(app *a, checked *c)
         app_screen_design(c->run->problem, &c->run->best, stdout);
         app_screen_joints(c->run, stdout);
         costs(c);
+        proposals(c);
     }
     return c->run->any && c->run->proof == VES_OK ? APP_DONE : APP_UNMET;
 }
