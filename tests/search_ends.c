@@ -152,7 +152,7 @@ Test(ends, rounding_is_no_curvature)
                    .start = {0.2, 0.4, 1, 0.1},
                    .gradients = true,
                    .data = &offset[k]};
-        ves_search_options o = ves_search_options_default();
+        ves_search_options o = chains_and_polish(16);
         ves_search_result *r;
         cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
         /* the slope across a constraint times violations that cost nothing, 1e-10 */

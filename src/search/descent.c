@@ -98,7 +98,7 @@ bool ves_descent_create(ves_descent *d, ves_session *session, int member, const 
     size_t n = (size_t)session->n, m = (size_t)session->m;
     ves_arena *arena = &session->arena;
     *d = (ves_descent){
-        .session = session, .options = options, .budget = budget, .runs = RUNS, .rival = HUGE_VAL};
+        .session = session, .options = options, .budget = budget, .runs = RUNS, .rival = HUGE_VAL, .step = 0.1};
     ves_asker_init(&d->asker, session, member);
     if (!share_create(d)) return false;
     d->recipe = ves_recipe_find(options->algorithm, session->n, session->problem->gradients);
@@ -543,7 +543,7 @@ ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *en
     forget(d, start);
     ves_point_copy(end, start, n, m);
     ves_status status = VES_OK;
-    double step = 0.1;
+    double step = d->step;
     bool due = true;
     if (d->recipe.gradient && d->session->problem->gradients && !m) status = ves_descent_relax(d, end);
     for (int k = 0; (k < d->runs || due) && status == VES_OK && !d->halted; k++, step *= 0.3) {

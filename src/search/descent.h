@@ -33,6 +33,7 @@ typedef struct ves_descent {
     bool halfway;               /* the Lagrangian holds all: they contradict each other */
     double *range;              /* [n] upper - lower */
 
+    double step;                /* first step of algorithms without gradients, in the unit box */
     double rival;               /* a descent that will not come below this is given up; HUGE_VAL: none */
     long window, mark;          /* evaluations between two looks at its progress; the last look */
     double marked;              /* value then; HUGE_VAL: not feasible */
