@@ -152,3 +152,18 @@ Test(cli_resume, a_resumed_run_takes_its_plugins_again)
     expect(vesica(NULL, "run --resume part"), 2, NULL, "cannot load the plugin", "none");
     root_remove();
 }
+
+/* This build has no MPI (tests/slow/ranks.sh builds one that has): one of the processes says so. */
+Test(cli_resume, mpirun_is_recognised)
+{
+    root_make();
+    setenv("OMPI_COMM_WORLD_SIZE", "2", 1);
+    setenv("OMPI_COMM_WORLD_RANK", "0", 1);
+    expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --no-files"), 2, NULL,
+           "one of 2 processes that mpirun has started, but this build of vesica has no MPI", "rank 0");
+    setenv("OMPI_COMM_WORLD_RANK", "1", 1);
+    outcome o = vesica(NULL, "run " PROBLEMS "bottle.yaml --no-files");
+    cr_expect(o.code == 2 && strlen(o.out) == 0 && strlen(o.err) == 0, "%s%s", o.out, o.err);
+    done(&o);
+    root_remove();
+}

@@ -25,6 +25,16 @@ extern "C" {
  * first 2500, then every second until 2500 more stand there, then every fourth, and so on. */
 typedef enum ves_trace { VES_TRACE_SHORT, VES_TRACE_ALL, VES_TRACE_ACCEPTED, VES_TRACE_NONE } ves_trace;
 
+/* Processes that go through the same run and share out its search, as MPI starts them; see ves_search_hooks.
+ * Problem and options are the same on all; rank 0 alone has files, and what it meets there ends all. `tell` gives
+ * all ranks the bytes of rank 0. A rank that ends with an error must end the others. */
+typedef struct ves_team {
+    int rank, ranks;
+    ves_status (*exchange)(void *data, const void *mine, size_t size, const void **all, size_t *total);
+    ves_status (*tell)(void *data, void *bytes, size_t size);
+    void *data;
+} ves_team;
+
 /* All zeros: what the file says, on all threads of the machine, and no files. */
 typedef struct ves_run_options {
     bool seeded; /* seed holds; else the problem's */
@@ -44,6 +54,7 @@ typedef struct ves_run_options {
     /* Go on with the run in the folder `out`, with the same problem and options (but for jobs) that it was begun
      * with, and end as if it had never been interrupted. One that is done is only gone through again. */
     bool resume;
+    const ves_team *team; /* NULL: alone */
 } ves_run_options;
 
 /* One line under `expect:`. */

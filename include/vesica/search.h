@@ -176,6 +176,15 @@ typedef struct ves_search_hooks {
     void (*keep)(void *data, const void *block, size_t size, bool whole);
     double (*clock)(void *data); /* s, from any worker: when parts are due. NULL: only at a stop */
     bool (*recall)(void *data, const void **block, size_t *size, bool *whole);
+
+    /* Ranks: processes that go through the same search and share out its rounds. Rank r asks for the tasks k of a
+     * round with k modulo ranks = r; then `exchange` gives every rank the messages of all, in the order of the
+     * ranks, as one row of bytes that lives until the next call; what the others were answered is not asked again.
+     * The result is the same on all, for any number. All of them have the same problem, options and answers of
+     * recall. `stopped` counts at the ends of rounds, whichever rank it told. A negative return ends the search
+     * on this rank, which must then end the others. ranks 0 or 1: alone. */
+    int rank, ranks;
+    ves_status (*exchange)(void *data, const void *mine, size_t size, const void **all, size_t *total);
 } ves_search_hooks;
 
 /* Reads a block, whole or not, of a problem with n variables and m constraints, one record after the other. The

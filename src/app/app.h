@@ -43,7 +43,9 @@ typedef struct app {
     app_options options;
     int operands;
     const char *operand[APP_OPERANDS];
-    int shared; /* loaded plugins */
+    const ves_team *team; /* of a run under mpirun, or NULL */
+    bool torn;            /* that run ended where the other ranks may not have */
+    int shared;           /* loaded plugins */
     void *handle[APP_PLUGINS];
     const ves_measure **measure; /* of the plugins, NULL-terminated; or NULL */
 } app;

@@ -3,6 +3,7 @@
 
 #include "app/app.h"
 #include "study/folder.h"
+#include "study/ranks.h"
 #include "study/result.h"
 #include "study/saved.h"
 
@@ -78,7 +79,8 @@ static ves_run_options options_of(const app *a, const ves_opened *opened)
                              .out = o->out,
                              .name = opened->name,
                              .trace = o->trace,
-                             .forget = o->forget};
+                             .forget = o->forget,
+                             .team = a->team};
 }
 
 static void say_end(const ves_run *run, const ves_run_options *options)
@@ -100,6 +102,7 @@ static int work(app *a, const ves_opened *opened, const ves_run_options *options
     app_patience_end();
     ves_progress_destroy(l.bar);
     app_say(a);
+    a->torn = !run && (status == VES_MEMORY || status == VES_FAULT || status == VES_STALE);
     if (!run) return app_code(status);
     if (a->options.json)
         json_print(run);
@@ -144,12 +147,13 @@ static int resume(app *a)
     app_say(a);
     if (status != VES_OK) return app_code(status);
     saved.options.jobs = a->options.jobs;
+    saved.options.team = a->team;
     int code = work(a, &opened, &saved.options);
     ves_study_close(&opened);
     return code;
 }
 
-int app_run(app *a)
+static int run_one(app *a)
 {
     ves_opened opened;
     int code;
@@ -166,5 +170,24 @@ int app_run(app *a)
     const ves_run_options options = options_of(a, &opened);
     code = work(a, &opened, &options);
     ves_study_close(&opened);
+    return code;
+}
+
+/* What mpirun starts together works on one run; rank 0 speaks for all. */
+int app_run(app *a)
+{
+    ves_ranks ranks;
+    int rank;
+    if (ves_ranks_asked(&rank) == 1) return run_one(a);
+    bool muted = rank == 0 || (freopen("/dev/null", "w", stdout) && freopen("/dev/null", "w", stderr));
+    if (!muted) return APP_MISSING;
+    if (a->operands && !strcmp(a->operand[0], "-"))
+        return app_fail(a, VES_USAGE,
+                        "stdin goes to one process alone: under mpirun the problem must be a file");
+    ves_status status = ves_ranks_begin(&ranks, a->diag);
+    if (status != VES_OK) return app_code(status);
+    a->team = &ranks.team;
+    int code = run_one(a);
+    ves_ranks_end(&ranks, !a->torn); /* one that fails alone would be waited for */
     return code;
 }

@@ -187,7 +187,7 @@ void ves_asker_record(ves_asker *asker, bool gradient, double temperature, bool 
     event.gradient = gradient;
     event.accepted = accepted;
     memcpy(asker->said.at + asker->last, &event, sizeof event);
-    if (ves_pool_workers(session->pool) == 1) catch_up(asker);
+    if (ves_pool_workers(session->pool) == 1 && !session->shares) catch_up(asker);
 }
 
 void ves_asker_merge(ves_asker *asker)

@@ -153,7 +153,11 @@ ves_status ves_session_round(ves_session *session, ves_asker *const *asker, int 
                              void (*task)(void *data, int worker, int index), void *data)
 {
     VES_TRY(ves_round_join(session, asker, count));
-    ves_pool_run(session->pool, count, task, data);
+    bool whole = count == 0 || asker[0]->whole; /* the journal answers it all, on every rank */
+    if (session->shares && !whole && !atomic_load(&session->stopped))
+        ves_round_share(session, &(ves_round){asker, count, task, data});
+    else
+        ves_pool_run(session->pool, count, task, data);
     ves_round_leave(session, asker, count);
     return session->fault;
 }

@@ -22,7 +22,8 @@ ves_status ves_session_init(ves_session *session, const ves_search_problem *prob
     session->stage_name = "start";
     atomic_init(&session->stopped, false);
     atomic_init(&session->under_way, 0);
-    session->listens = hooks && (hooks->record || hooks->progress || hooks->keep);
+    session->shares = session->hooks.exchange && session->hooks.ranks > 1;
+    session->listens = session->shares || (hooks && (hooks->record || hooks->progress || hooks->keep));
     session->recalls = hooks && hooks->recall;
     ves_search_complete(session, options);
     session->pool = ves_pool_create(problem->workers);
@@ -39,6 +40,7 @@ void ves_session_destroy(ves_session *session)
 {
     ves_pool_destroy(session->pool);
     ves_bytes_free(&session->block);
+    ves_bytes_free(&session->message);
     ves_memory_free(session->temperature_log);
     ves_memory_free(session->annealing_log);
     ves_arena_destroy(&session->arena);
@@ -49,6 +51,7 @@ bool ves_session_over(ves_session *session)
 {
     if (session->fault) return true;
     if (atomic_load(&session->stopped)) return true;
+    if (session->shares && !session->rounding) return false; /* the others must see it at the same place */
     if (!session->hooks.stopped || !session->hooks.stopped(session->hooks.data)) return false;
     atomic_store(&session->stopped, true);
     return true;

@@ -75,7 +75,10 @@ struct ves_session {
     bool listens;          /* some hook wants to hear of evaluations */
     bool recalls;          /* the journal may know more */
     bool closed;           /* and hears no more: the search was stopped */
+    bool shares;           /* there are other ranks */
+    bool rounding;         /* a round is going on */
     ves_bytes block;       /* under the lock of the pool */
+    ves_bytes message;     /* for the other ranks */
     ves_verdict seen;      /* best told so far */
     double
         *price; /* [m] objective per unit of violation: what a violation within the tolerance may not buy */
@@ -161,6 +164,15 @@ void ves_asker_save(ves_asker *asker);
 ves_status ves_round_join(ves_session *session, ves_asker *const *asker, int count);
 void ves_round_leave(ves_session *session, ves_asker *const *asker, int count);
 void ves_asker_destroy(ves_asker *asker);
+
+/* share.c: the tasks of a round, those of the other ranks too. */
+typedef struct ves_round {
+    ves_asker *const *asker;
+    int count;
+    void (*task)(void *data, int worker, int index);
+    void *data;
+} ves_round;
+void ves_round_share(ves_session *session, const ves_round *round);
 
 /* The stages. */
 ves_status ves_search_begin(ves_session *session); /* measures the start, or finds one that can be measured */

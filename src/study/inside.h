@@ -24,6 +24,9 @@ typedef struct ves_study {
     ves_tracer tracer;
     ves_lock lock; /* of the run folder */
     ves_journal journal;
+    bool recalls;              /* the journal of rank 0 may know answers */
+    unsigned char *told_block; /* on the other ranks */
+    size_t told_room;
     bool told;              /* that the journal cannot be written */
     double wall, cpu, mark; /* clocks: the beginning; the stage's beginning */
     int stage;
@@ -52,7 +55,11 @@ void ves_study_plans_destroy(ves_plan **plan, int count);
  * points; NULL: at the start of the file. */
 ves_status ves_study_search(ves_study *study, const ves_search_options *options, const double *const *from,
                             int count);
-bool ves_study_stopped(ves_study *study);
+bool ves_study_stopped(ves_study *study); /* on all ranks alike */
+
+/* What rank 0 met. */
+ves_status ves_study_agree(ves_study *study, ves_status status);
+bool ves_study_leads(const ves_study *study); /* is this rank 0, or the only one */
 
 /* A warning when the journal cannot be written any more. */
 void ves_study_journal_tell(ves_study *study);

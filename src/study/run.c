@@ -69,7 +69,7 @@ static void set_up(ves_study *s)
     run->problem = s->problem;
     run->searched = searches(s);
     run->seed = s->search.seed;
-    run->jobs = !run->searched ? 1 : o->jobs > 0 ? o->jobs : machine_threads();
+    run->jobs = !run->searched ? 1 : o->jobs > 0 ? o->jobs : o->team ? 1 : machine_threads();
     if (run->jobs > JOBS_MOST) run->jobs = JOBS_MOST;
     run->times.threads = machine_threads();
     run->stop = s->problem->variables ? "nothing to optimize" : "nothing to vary";
@@ -200,7 +200,7 @@ static ves_status tracer_begin(ves_study *s)
 
 static ves_status folder_begin(ves_study *s)
 {
-    if (!s->options->files || s->run->over) return VES_OK;
+    if (!s->options->files || s->run->over || !ves_study_leads(s)) return VES_OK;
     if (!s->options->resume) {
         VES_TRY(folder_make(s));
         VES_TRY(folder_fill(s));
@@ -219,7 +219,7 @@ static bool is_over(const ves_study *s)
 static ves_status folder_resume(ves_study *s)
 {
     ves_run *run = s->run;
-    if (!s->options->resume) return VES_OK;
+    if (!s->options->resume || !ves_study_leads(s)) return VES_OK;
     run->folder = ves_arena_text(s->arena, s->options->out, strlen(s->options->out));
     const ves_journal_head head = head_of(s);
     if (!run->folder || !head.text) return ves_diag_fail(s->diag, VES_MEMORY);
@@ -234,7 +234,17 @@ static ves_status folder_resume(ves_study *s)
                      "the last %llu bytes of \"%s\" are not whole: what they told is asked again",
                      (unsigned long long)s->journal.torn, s->journal.path);
     run->over = is_over(s);
+    s->recalls = true;
     return VES_OK;
+}
+
+/* Rank 0 alone reads the folder; the others learn whether there is something to recall. */
+static ves_status journal_agree(ves_study *s)
+{
+    VES_TRY(ves_study_agree(s, folder_resume(s)));
+    ves_status none = ves_study_agree(s, s->recalls ? VES_OK : VES_ABSENT);
+    s->recalls = none == VES_OK;
+    return none == VES_OK || none == VES_ABSENT ? VES_OK : none;
 }
 
 static void folder_end(ves_study *s)
@@ -304,11 +314,11 @@ static ves_status once(ves_study *s)
 static ves_status work(ves_study *s)
 {
     ves_run *run = s->run;
-    VES_TRY(folder_resume(s));
+    VES_TRY(journal_agree(s));
     VES_TRY(plans_make(s));
     VES_TRY(start_measure(s));
     if (run->searched || s->options->prove) VES_TRY(idle_find(s));
-    VES_TRY(folder_begin(s)); /* told before the search has cost anything */
+    VES_TRY(ves_study_agree(s, folder_begin(s))); /* told before the search has cost anything */
     if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);
     VES_TRY(run->searched ? search(s) : once(s));
     run->finer_change = ves_plan_change(s->plan[0], &run->best, &run->finer);
@@ -355,6 +365,7 @@ ves_status ves_run_create(const ves_problem *problem, const ves_run_options *opt
     ves_tracer_end(&s.tracer);
     ves_journal_end(&s.journal, false);
     ves_lock_drop(&s.lock);
+    ves_memory_free(s.told_block);
     if (status != VES_OK) {
         ves_run_destroy(&box->run);
         return status;

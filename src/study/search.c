@@ -66,14 +66,15 @@ static void hear_progress(void *data, const ves_progress *progress)
     if (s->hooks->progress) s->hooks->progress(s->hooks->data, &shown);
 }
 
-bool ves_study_stopped(ves_study *study)
-{
-    return study->hooks->stopped && study->hooks->stopped(study->hooks->data);
-}
-
 static bool hear_stopped(void *data)
 {
-    return ves_study_stopped(data);
+    const ves_study *s = data;
+    return s->hooks->stopped && s->hooks->stopped(s->hooks->data);
+}
+
+bool ves_study_stopped(ves_study *study)
+{
+    return ves_study_agree(study, hear_stopped(study) ? VES_INTERRUPTED : VES_OK) == VES_INTERRUPTED;
 }
 
 /* Variables that do nothing go back to their start. */
@@ -171,9 +172,55 @@ static void hear_block(void *data, const void *block, size_t size, bool whole)
     ves_journal_keep(&s->journal, block, size, whole, s->stages_before);
 }
 
+/* --- ranks --- */
+
+bool ves_study_leads(const ves_study *s)
+{
+    return !s->options->team || s->options->team->rank == 0;
+}
+
+ves_status ves_study_agree(ves_study *s, ves_status status)
+{
+    const ves_team *team = s->options->team;
+    int32_t said = (int32_t)status;
+    if (team) VES_TRY(team->tell(team->data, &said, sizeof said));
+    return (ves_status)said;
+}
+
+static ves_status exchange(void *data, const void *mine, size_t size, const void **all, size_t *total)
+{
+    const ves_team *team = ((ves_study *)data)->options->team;
+    return team->exchange(team->data, mine, size, all, total);
+}
+
+/* The block that rank 0 has read, or nothing where it has no more. */
+static bool tell_all(ves_study *s, const void **block, size_t *size, bool *whole)
+{
+    const ves_team *team = s->options->team;
+    struct {
+        uint64_t size;
+        uint32_t any, whole;
+    } head = {*size, *block != NULL, *whole};
+    if (team->tell(team->data, &head, sizeof head) != VES_OK || !head.any) return false;
+    if (!ves_study_leads(s) && head.size > s->told_room) {
+        unsigned char *room = ves_memory_grow(s->told_block, head.size);
+        if (!room) return false; /* the others go on, and notice that this rank runs another round */
+        s->told_block = room;
+        s->told_room = head.size;
+    }
+    void *bytes = ves_study_leads(s) ? (void *)*block : s->told_block;
+    *block = bytes, *size = head.size, *whole = head.whole;
+    return team->tell(team->data, bytes, head.size) == VES_OK;
+}
+
 static bool tell_block(void *data, const void **block, size_t *size, bool *whole)
 {
-    return ves_journal_recall(&((ves_study *)data)->journal, block, size, whole);
+    ves_study *s = data;
+    *block = NULL, *size = 0, *whole = false;
+    bool any = ves_study_leads(s) && ves_journal_recall(&s->journal, block, size, whole);
+    if (!s->options->team) return any;
+    if (!any) *block = NULL;
+    return tell_all(s, block, size, whole);
 }
 
 static double hear_clock(void *data)
@@ -199,7 +246,10 @@ ves_status ves_study_search(ves_study *s, const ves_search_options *options, con
     ves_search_result *result = NULL;
     ves_search_hooks hooks = {
         .progress = hear_progress, .record = hear_record, .stopped = hear_stopped, .data = s};
-    if (s->journal.open) hooks.keep = hear_block, hooks.recall = tell_block, hooks.clock = hear_clock;
+    const ves_team *team = s->options->team;
+    if (s->journal.open) hooks.keep = hear_block, hooks.clock = hear_clock;
+    if (s->recalls) hooks.recall = tell_block;
+    if (team) hooks.rank = team->rank, hooks.ranks = team->ranks, hooks.exchange = exchange;
     if (from) problem.start = from[0], problem.other = from + 1, problem.others = count - 1;
     s->from = problem.start;
     s->stages_before = run->times.stages;

@@ -1,0 +1,47 @@
+#!/bin/sh
+# One, two and three ranks leave the same bytes as a run alone, also where they are killed or stopped and go on with
+# another number of them. Builds vesica with MPI in a folder of its own.
+set -eu
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+build=$2/mpi work=$(mktemp -d "$2/ranks.XXXXXX")
+trap 'rm -rf "$work"' EXIT
+cmake -S "$1" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DVESICA_MPI=ON -DVESICA_TESTS=OFF -DVESICA_BENCH=OFF >/dev/null
+cmake --build "$build" --target vesica >/dev/null
+cd "$work"
+
+ranks() { count=$1 && shift && mpirun --oversubscribe -n "$count" "$build/vesica" run "$@" --progress none >out 2>&1; }
+same() {
+  for file in result.json trace.jsonl journal problem.yaml run.json best.vtp; do cmp "$1/$file" "$2/$file"; done
+  [ ! -e "$2/lock" ] && [ ! -e "$2/journal.part" ]
+}
+
+printf '%s\n' 'vesica: 1' 'variables: {R: [1.1, 3, 5]}' 'shape: {closed: true}' 'measures: {hh: {integral: "H^2"}}' \
+  'minimize: hh' 'search: [{anneal: {evaluations: 400}}, {polish: {}}]' 'patches:' \
+  '  t: {surface: {formula: ["(R + cos(u))*cos(v)", "(R + cos(u))*sin(v)", "sin(u)"]}, domain: {u: [0, 2*pi], v: [0, 2*pi]}}' >torus.yaml
+for problem in torus.yaml "$1/problems/vesicle.yaml" "$1/problems/curvature.yaml"; do
+  name=$(basename "$problem" .yaml)
+  "$2/vesica" run "$problem" --evaluations 20000 --out "$name" --progress none >out 2>&1
+  for n in 1 2 3; do
+    ranks $n "$problem" --evaluations 20000 --out "$name$n"
+    same "$name" "$name$n"
+  done
+done
+
+"$2/vesica" run "$1/problems/curvature.yaml" --evaluations 300000 --out whole --progress none >out 2>&1
+for signal in KILL TERM; do
+  for n in 2 3; do
+    run=$signal$n
+    mpirun --oversubscribe -n $n "$build/vesica" run "$1/problems/curvature.yaml" --evaluations 300000 --out "$run" \
+      --progress none >out 2>&1 &
+    child=$!
+    until [ "$(stat -c %s "$run/journal" 2>/dev/null || echo 0)" -gt 2000000 ]; do sleep 0.02; done
+    kill -s $signal $child
+    wait $child && { echo "$run: it was done before" >&2 && exit 1; } || true
+    until ranks $((5 - n)) --resume "$run"; do # ranks that outlive mpirun for a moment
+      grep -q 'wait until it is done' out || { cat out >&2 && exit 1; }
+      sleep 0.2
+    done
+    same whole "$run"
+  done
+done
+echo "1, 2 and 3 ranks: the same bytes"
