@@ -7,7 +7,7 @@
 #include "base/arena.h"
 #include "base/random.h"
 
-enum { SAMPLES = 1000, EXACT_UNPAIRED = 60, EXACT_PAIRED = 600 };
+enum { SAMPLES = 1000, EXACT = 600 };
 
 static const double z95 = 1.959963984540054; /* of the normal distribution, two-sided 95 % */
 
@@ -115,50 +115,6 @@ static double tails(const double *chance, int count, double middle, double at)
     return fmin(sum, 1);
 }
 
-/* Chances of each sum of nx of the n ranks drawn at random: by adding one rank after the other,
- * chance[taken][sum], weighted so that the last column is a distribution. */
-static double exact_unpaired(const int *rank, int n, int nx, int observed)
-{
-    int total = n * (n + 1) + 1;
-    double *ways = ves_memory_take((size_t)(nx + 1) * (size_t)total * sizeof *ways);
-    if (!ways) return NAN;
-    ways[0] = 1;
-    for (int k = 0; k < n; k++)
-        for (int taken = k + 1 < nx ? k + 1 : nx; taken > 0; taken--)
-            for (int sum = total - 1; sum >= rank[k]; sum--)
-                ways[taken * total + sum] += ways[(taken - 1) * total + sum - rank[k]];
-    double *last = ways + (size_t)nx * (size_t)total, all = 0;
-    for (int sum = 0; sum < total; sum++) all += last[sum];
-    for (int sum = 0; sum < total; sum++) last[sum] /= all;
-    double p = tails(last, total, nx * (n + 1.0), observed);
-    ves_memory_free(ways);
-    return p;
-}
-
-double ves_statistics_unpaired(const double *x, int nx, const double *y, int ny)
-{
-    int n = nx + ny, sum = 0;
-    if (nx < 1 || ny < 1) return NAN;
-    double *value = ves_memory_take((size_t)n * sizeof *value), p = NAN;
-    int *rank = ves_memory_take((size_t)n * sizeof *rank);
-    if (value && rank) {
-        memcpy(value, x, (size_t)nx * sizeof *x);
-        memcpy(value + nx, y, (size_t)ny * sizeof *y);
-        double ties = ranks(value, n, rank);
-        for (int k = 0; k < nx; k++) sum += rank[k];
-        double U = sum / 2.0 - nx * (nx + 1.0) / 2, mean = (double)nx * ny / 2;
-        double variance = (double)nx * ny / 12 * (n + 1 - ties / ((double)n * (n - 1)));
-        double off = fmax(fabs(U - mean) - 0.5, 0);
-        if (ties >= 0 && n <= EXACT_UNPAIRED)
-            p = exact_unpaired(rank, n, nx, sum);
-        else if (ties >= 0)
-            p = variance > 0 ? normal_tails(off / sqrt(variance)) : 1;
-    }
-    ves_memory_free(value);
-    ves_memory_free(rank);
-    return p;
-}
-
 /* Chances of each sum of the ranks with a plus sign. */
 static double exact_paired(const int *rank, int n, int observed)
 {
@@ -189,7 +145,7 @@ double ves_statistics_paired(const double *x, const double *y, int n)
         for (int k = 0; k < count; k++) plus += sign[k] ? rank[k] : 0;
         double variance = N * (N + 1) * (2 * N + 1) / 24 - ties / 48;
         double off = fmax(fabs(plus / 2.0 - N * (N + 1) / 4) - 0.5, 0);
-        if (ties >= 0 && count <= EXACT_PAIRED)
+        if (ties >= 0 && count <= EXACT)
             p = count ? exact_paired(rank, count, plus) : 1;
         else if (ties >= 0)
             p = normal_tails(off / sqrt(variance));
@@ -217,11 +173,4 @@ void ves_statistics_holm(double *p, int count)
         p[next] = -least;
     }
     for (int k = 0; k < count; k++) p[k] = isnan(p[k]) ? p[k] : fabs(p[k]);
-}
-
-double ves_statistics_ecdf(const double *x, int n, double t)
-{
-    int k = 0;
-    while (k < n && x[k] <= t) k++;
-    return n ? (double)k / n : NAN;
 }

@@ -27,18 +27,11 @@ double ves_statistics_quantile(const double *x, int n, double p);
 /* Chance that a run of x is less than one of y, ties half: the effect size A12 [Vargha and Delaney 2000] */
 double ves_statistics_effect(const double *x, int nx, const double *y, int ny);
 
-/* Two-sided p of [Mann and Whitney 1947], unpaired: exact (all choices of nx of the midranks) up to 60 runs,
- * else by the normal distribution with ties and continuity corrected. */
-double ves_statistics_unpaired(const double *x, int nx, const double *y, int ny);
-
 /* Two-sided p of [Wilcoxon 1945], paired: differences that are 0 say nothing; exact (all signs of the
  * midranks) up to 600 pairs. x[k] and y[k] may both be INFINITY: no difference. */
 double ves_statistics_paired(const double *x, const double *y, int n);
 
 /* Step-down correction of count tests at once [Holm 1979], in place; NAN (no test) is left out. */
 void ves_statistics_holm(double *p, int count);
-
-/* Share of x up to t: of ascending x. */
-double ves_statistics_ecdf(const double *x, int n, double t);
 
 #endif
