@@ -152,13 +152,14 @@ Test(ends, rounding_is_no_curvature)
                    .start = {0.2, 0.4, 1, 0.1},
                    .gradients = true,
                    .data = &offset[k]};
-        ves_search_options o = chains_and_polish(16);
+        ves_search_options o = ves_search_options_default();
         ves_search_result *r;
         cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
         /* the slope across a constraint times violations that cost nothing, 1e-10 */
         cr_expect(r->feasible && fabs(r->value - offset[k] - 0.35) < 1e-9 * fmax(1, fabs(offset[k])), "%.12g",
                   r->value);
-        cr_expect(noted(r, "saddle") == NULL, "%s", noted(r, "saddle"));
+        /* the cube of x[0] has an inflection, which a descent may meet and leave; the rounding in x[3] has none */
+        cr_expect(noted(r, "mostly x[3]") == NULL, "%s", noted(r, "mostly x[3]"));
         for (int i = 0; i < r->optima; i++) cr_expect(r->optimum[i].saddle == false);
         ves_search_result_destroy(r);
     }
@@ -542,4 +543,26 @@ Test(ends, a_polish_goes_on_from_every_start)
     cr_expect(eq(int, ves_search_run(&p, &o, NULL, &r), VES_RANGE));
     p.others = -1;
     cr_expect(eq(int, ves_search_run(&p, &o, NULL, &r), VES_RANGE));
+}
+
+/* From inside both curves the first step of SLSQP goes along the corner, beyond them, and the value changes no
+ * more: NLopt says that it has converged, and gives back where it began. */
+Test(ends, a_descent_that_stops_beyond_a_constraint_goes_on)
+{
+    double offset = 0;
+    given g = {.evaluate = corner,
+               .n = 4,
+               .m = 2,
+               .lower = {-3, -3, 0.5, -1},
+               .upper = {3, 3, 2, 1.3},
+               .start = {0.2, 0.4, 1, 0.1},
+               .gradients = true,
+               .data = &offset};
+    ves_search_options o = only_polish("slsqp");
+    ves_search_result *r;
+    cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+    /* a cube is flat: a change of the value below 1e-12 leaves some 1e-8 of it */
+    cr_expect(r->feasible && fabs(r->value - 0.35) < 1e-6, "%.12g; %s", r->value, r->stop);
+    cr_expect(noted(r, "slope has not vanished") == NULL);
+    ves_search_result_destroy(r);
 }

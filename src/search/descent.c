@@ -97,8 +97,12 @@ bool ves_descent_create(ves_descent *d, ves_session *session, int member, const 
 {
     size_t n = (size_t)session->n, m = (size_t)session->m;
     ves_arena *arena = &session->arena;
-    *d = (ves_descent){
-        .session = session, .options = options, .budget = budget, .runs = RUNS, .rival = HUGE_VAL, .step = 0.1};
+    *d = (ves_descent){.session = session,
+                       .options = options,
+                       .budget = budget,
+                       .runs = RUNS,
+                       .rival = HUGE_VAL,
+                       .step = 0.1};
     ves_asker_init(&d->asker, session, member);
     if (!share_create(d)) return false;
     d->recipe = ves_recipe_find(options->algorithm, session->n, session->problem->gradients);
@@ -529,6 +533,17 @@ static ves_status look_back(ves_descent *d, bool *due)
     return VES_OK;
 }
 
+/* An algorithm that stopped beyond a constraint, where steps along it do not change the value, did not come back
+ * to anything better than where it began: the next run, which is due, begins where it stopped. */
+static bool go_on(ves_descent *d)
+{
+    bool beyond = d->recipe.gradient && d->asked && d->last.status == VES_OK &&
+                  d->last.violation > d->session->tolerance;
+    if (!beyond || d->halted || d->choices++ >= CHOICES) return false;
+    ves_descent_keep(d, &d->aside);
+    return true;
+}
+
 /* What a run that has nothing put off cannot meet contradicts the rest, as far as it can see: the augmented
  * Lagrangian meets it halfway. */
 static bool contrary(const ves_descent *d)
@@ -556,6 +571,10 @@ ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *en
         if (astray || status != VES_OK) continue;
         status = look_back(d, &due);
         bool stuck = !due && !d->halted && !progressed(d, &before, &end->verdict);
+        if (stuck && status == VES_OK && go_on(d)) {
+            due = d->turned = true;
+            continue;
+        }
         if (!due && (stuck || !d->wrapped) && contrary(d))
             due = d->halfway = true;
         else if (stuck && k)
