@@ -105,3 +105,16 @@ Test(propose, what_is_proposed_ends_in_the_same_optimum)
     cr_expect(epsilon_eq(dbl, searched, exact, 1e-7 * exact));
     cr_expect(violation[1] <= violation[0] + 1e-12);
 }
+
+/* Along r there are designs without a value, the square root of less than nothing: r is not proposed, and the rest
+ * is looked at. */
+Test(propose, designs_that_cannot_be_measured_are_passed_over)
+{
+    ves_problem *problem =
+        read_text("", "minimize: area\nconstraints: [sqrt(r - 0.5) + 0*area == 1, area == 5]\n");
+    ves_elimination list[2];
+    cr_assert(eq(int, propose(problem, list), 2));
+    cr_expect(list[0].constraint == 1 && list[0].variable == -1);
+    cr_expect(list[1].constraint == 1 && !strcmp(ves_problem_slot(problem, list[1].variable), "h"));
+    ves_problem_destroy(problem);
+}

@@ -43,16 +43,16 @@ static ves_status look(const line *l, int v, double *excess)
     const ves_problem *p = l->problem;
     const ves_variable *variable = &p->variable[v];
     ves_status status = VES_OK;
-    for (int k = 0; k < LOOKS && status == VES_OK; k++) {
+    for (int k = 0; k < LOOKS && status >= VES_OK; k++) {
         ves_design design;
         l->x[v] = variable->min + (variable->max - variable->min) * k / (LOOKS - 1);
         status = ves_plan_measure(l->plan, l->x, 0, &design);
-        for (int j = 0; j < p->constraints && status == VES_OK; j++)
+        for (int j = 0; j < p->constraints && status >= VES_OK; j++)
             excess[k * p->constraints + j] =
-                design.status == VES_OK ? design.side[j].value - design.side[j].limit : NAN;
+                status == VES_OK ? design.side[j].value - design.side[j].limit : NAN;
     }
     l->x[v] = variable->start;
-    return status;
+    return status < VES_OK ? status : VES_OK;
 }
 
 /* How far constraint j runs from one sign to the other, always the same way; 0: it does not. */
