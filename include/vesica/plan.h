@@ -116,6 +116,10 @@ void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag 
  * mine. */
 ves_search_problem ves_plan_search(ves_plan **plan, int workers);
 
+/* What the best objective changes by, per unit, when something is added to the limit of a constraint, which is the
+ * side that told its size: from its multiplier (ves_kkt) to the sign of the file and SI units. */
+double ves_plan_rate(const ves_plan *plan, int constraint, double multiplier);
+
 /* What a PDE patch is made of; zero for other kinds. At the design last evaluated. */
 typedef struct ves_patch_facts {
     int order;    /* of its equation */

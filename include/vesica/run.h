@@ -125,6 +125,13 @@ typedef struct ves_run {
     const ves_temperature *temperature;
     int annealings;
     const ves_annealing_report *annealing;
+    int strategies;
+    const ves_strategy_report *strategy;
+    ves_evidence evidence; /* sentence: NULL when nothing was searched */
+    ves_kkt
+        kkt; /* of best; here multiplier[k] is what the best objective changes by, per unit, when something is
+                    added to the limit of constraint k (ves_sides), bound[k] when the bound that holds variable k is
+                    moved up, both in the sign and units of the file; slope is that of a verdict */
     ves_run_times times;
 } ves_run;
 

@@ -123,7 +123,9 @@ typedef struct ves_search_options {
     ves_stage stage[VES_STAGES];
     uint64_t seed; /* default: 1 */
 
-    /* Budget of the whole search, never exceeded; 0: the sum of the stages, the start and 16 proofs. At most
+    /* Budget of the whole search, never exceeded; 0: the sum of the stages, the start and 16 proofs, and a
+     * portfolio whose stage gives none either may end before its budget is spent: once its best has been
+     * found by ten independent descents and less than 1 % of the box is expected to lead elsewhere. At most
      * 2^53, like those of the stages. Proofs are evaluations like any other: an annealing asks for at most 16
      * and a tenth of its budget, a polish for at most 3; a twentieth of the whole, 1 to 16, is kept for the
      * end, where the best and the optima are proved. A budget of 1 measures the start and proves nothing: the
@@ -205,7 +207,9 @@ bool ves_search_block_read(const void *block, size_t size, int n, int m, ves_sea
 typedef struct ves_optimum {
     const double *x;
     double value, violation; /* of a verdict; in a run those of a design */
-    int hits;                /* how many polishes ended here */
+    int hits;    /* how many descents ended here, the last polish included only where it is the first to: a
+                 portfolio counts those of all its strategies, as long as their end is among the 16 that
+                 are polished */
     bool saddle; /* the second-order check found a direction of negative curvature that could not be left */
 } ves_optimum;
 
@@ -254,6 +258,58 @@ typedef struct ves_annealing_report {
     const char *sentence;
 } ves_annealing_report;
 
+/* What one strategy of a portfolio has done. */
+enum { VES_STRATEGIES = 8 * VES_STAGES };
+typedef struct ves_strategy_report {
+    int stage;
+    const char *name; /* of the strategy; refine: the descents from bests of theirs, and of the start */
+    long evaluations, gradients;
+    int bests; /* turns in which it found a new best of all */
+    bool best; /* the best is its, though `refine` may have gone on from there */
+} ves_strategy_report;
+
+/* How far the best can be trusted to be the best there is. */
+typedef enum ves_trust {
+    VES_TRUST_NONE,      /* nothing to tell: no feasible and proved best, or a sampler's */
+    VES_TRUST_STOPPED,   /* the search was not allowed to go on */
+    VES_TRUST_REFUSED,   /* better designs did not pass the proof: it need be no optimum */
+    VES_TRUST_SHORT,     /* the budget was too short to converge */
+    VES_TRUST_FROZEN,    /* an annealing has frozen; nothing else is known */
+    VES_TRUST_CONVERGED, /* a descent has converged; no second one that knew nothing of it ended there */
+    VES_TRUST_REPEATED   /* at least two independent descents ended there */
+} ves_trust;
+
+/* Independent descents are those of a portfolio from points drawn uniformly from the box that ended at a point
+ * with a value; hops from the best and lines do not count. After n of them with w distinct ends, and all numbers of
+ * minima and all divisions of the box among them being as likely at first, the expected number of minima is
+ * w (n - 1) / (n - w - 2), and the expected part of the box from which descents lead to minima that were not
+ * seen is w (w + 1) / (n (n - 1)), both for n > w + 2 [Boender and Rinnooy Kan 1987]. */
+typedef struct ves_evidence {
+    ves_trust trust;
+    const char *sentence;
+    long descents; /* n */
+    long minima;   /* w: those that turned out to be one optimum counted once; infeasible ends too */
+    long hits;     /* of them that ended at the best */
+    double expected, unseen; /* NAN: not enough descents to tell */
+} ves_evidence;
+double ves_evidence_expected(long descents, long minima);
+double ves_evidence_unseen(long descents, long minima);
+
+/* First-order conditions at the best. With L = f + sum_j multiplier_j constraint_j, slopes are those across the
+ * whole range of a variable. A multiplier is what the best value gains, per unit, when the limit of its constraint
+ * is moved outwards a little (constraint <= eps, or == eps); >= 0 for inequalities. */
+typedef struct ves_kkt {
+    bool known;   /* false: no gradients, no feasible best, stopped, or no evaluation left for them */
+    double slope; /* |grad L| over the variables that no bound holds */
+    double
+        residual; /* the same relative to the largest of |grad f| at the best, at the start, and 1e-4 |f| */
+    bool unique;  /* the slopes of what holds are independent, so that there are no other multipliers */
+    const double *multiplier; /* [m]; 0: it does not hold the best */
+    const double
+        *bound; /* [n] df/dx at the bound that holds x, what the best value rises by when this bound is
+                                 moved up by 1; 0: none holds it */
+} ves_kkt;
+
 /* Why a search ended. */
 typedef enum ves_ending {
     VES_ENDED_DONE,   /* of itself: frozen, converged, or nowhere left to go */
@@ -284,6 +340,10 @@ typedef struct ves_search_result {
     const ves_temperature *temperature;
     int annealings;
     const ves_annealing_report *annealing;
+    int strategies;
+    const ves_strategy_report *strategy; /* of portfolios, in their order */
+    ves_evidence evidence;
+    ves_kkt kkt;
     long failed;  /* candidates without a value */
     long refused; /* accepted bests refused by VES_WANT_PROOF */
 } ves_search_result;

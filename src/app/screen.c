@@ -10,7 +10,7 @@
 static const double AT_LIMIT = 1e-6;
 
 /* Of what sets two optima apart: so many variables, if they differ by this part of the largest difference. */
-enum { OPTIMA = 8, DIFFERENCES = 3, JOINTS = 24 };
+enum { OPTIMA = 8, DIFFERENCES = 3, JOINTS = 24, LIMITS = 8 };
 static const double APART = 0.1;
 
 const char *app_screen_number(double value, char buffer[32])
@@ -295,6 +295,54 @@ static void optima(const ves_run *run, app_table *t)
     }
 }
 
+/* What of the objective is to be had, or paid, for one unit: in the units of the file. */
+static void price_write(const ves_run *run, double rate, const ves_shown *of, const char *way, char text[120])
+{
+    const ves_problem *p = run->problem;
+    const ves_shown *shown = &p->objective_shown;
+    snprintf(text, 120, "1%s%s %s %s %.4g%s%s", *of->unit ? " " : "", of->unit, way,
+             (rate > 0) == p->maximize ? "gains" : "costs", fabs(rate) * of->factor / shown->factor,
+             *shown->unit ? " " : "", shown->unit);
+}
+
+/* What holds the best; at first order, as are all these prices. */
+static void limits(const ves_run *run, app_table *t)
+{
+    const ves_problem *p = run->problem;
+    const ves_kkt *kkt = &run->kkt;
+    char text[120], number[32];
+    int rows = 0;
+    if (!kkt->known || !p->objective) return;
+    for (int k = 0; k < p->constraints; k++) {
+        if (kkt->multiplier[k] == 0 || rows++ >= LIMITS) continue;
+        price_write(run, kkt->multiplier[k], &p->constraint[k].shown, "more", text);
+        app_table_cell(t, rows == 1 ? "limits" : "");
+        app_table_cell(t, "%s: %s", p->constraint[k].text, text);
+    }
+    for (int k = 0; k < p->variables; k++) {
+        const ves_variable *v = &p->variable[k];
+        double rate = kkt->bound[k];
+        if (rate == 0 || rows++ >= LIMITS) continue;
+        bool lower = run->best.x[k] - v->min < v->max - run->best.x[k];
+        bool idle = fabs(rate) * (v->max - v->min) < AT_LIMIT * fabs(run->best.objective);
+        price_write(run, lower ? -rate : rate, &v->shown, lower ? "lower" : "higher", text);
+        app_table_cell(t, rows == 1 ? "limits" : "");
+        app_table_cell(t, "%s stands at its %s bound %s%s%s: %s", v->name, lower ? "lower" : "upper",
+                       app_screen_number((lower ? v->min : v->max) / v->shown.factor, number),
+                       *v->shown.unit ? " " : "", v->shown.unit, idle ? "which costs next to nothing" : text);
+    }
+    if (rows > LIMITS) {
+        app_table_cell(t, "%s", "");
+        app_table_cell(t, "and %d more in result.json", rows - LIMITS);
+    }
+    if (rows && !kkt->unique) {
+        app_table_cell(t, "%s", "");
+        app_table_cell(t, "%s", "these prices are not unique: the limits that hold depend on each other");
+    }
+    app_table_cell(t, rows ? "" : "slope");
+    app_table_cell(t, "%s%.1e of the objective's is left", rows ? "slope: " : "", kkt->residual);
+}
+
 static void expectations(const ves_run *run, app_table *t)
 {
     int held = 0;
@@ -309,6 +357,31 @@ static void expectations(const ves_run *run, app_table *t)
     }
 }
 
+/* A line for each portfolio. */
+static void strategies(const ves_run *run, app_table *t)
+{
+    for (int first = 0, next; first < run->strategies; first = next) {
+        const ves_strategy_report *r = run->strategy;
+        char text[300] = "", number[64];
+        const char *best = NULL;
+        size_t at = 0;
+        long all = 0;
+        for (next = first; next < run->strategies && r[next].stage == r[first].stage; next++)
+            all += r[next].evaluations;
+        for (int k = first; k < next; k++) {
+            if (r[k].best) best = r[k].name;
+            if (!r[k].evaluations || at >= sizeof text) continue;
+            int length = snprintf(text + at, sizeof text - at, "%s%s %.0f %%", at ? ", " : "", r[k].name,
+                                  100 * (double)r[k].evaluations / (double)all);
+            at += length > 0 ? (size_t)length : 0;
+        }
+        if (!all) continue;
+        app_table_cell(t, "%s", "");
+        app_table_cell(t, "%s of %s; %s%s", text, app_screen_plural(all, "evaluation", "evaluations", number),
+                       best ? "the best by " : "none found better than the start", best ? best : "");
+    }
+}
+
 static void effort(const ves_run *run, app_table *t)
 {
     char evaluations[64], gradients[64], time[32];
@@ -318,8 +391,12 @@ static void effort(const ves_run *run, app_table *t)
                    app_screen_plural(run->evaluations, "evaluation", "evaluations", evaluations),
                    app_screen_plural(run->gradients, "gradient", "gradients", gradients),
                    app_screen_time(run->times.search, time), (unsigned long long)run->seed);
+    strategies(run, t);
     app_table_cell(t, "stopped");
     app_table_cell(t, "%s", run->stop);
+    if (!run->evidence.sentence) return;
+    app_table_cell(t, "verdict");
+    app_table_cell(t, "%s", run->evidence.sentence);
 }
 
 /* One line each: how it was, and what it says of itself. */
@@ -358,6 +435,7 @@ static void remarks(const ves_run *run, FILE *out)
                        2 * q[1], run->finer_change);
     }
     optima(run, &t);
+    limits(run, &t);
     expectations(run, &t);
     effort(run, &t);
     annealings(run, &t);

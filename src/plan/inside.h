@@ -238,4 +238,7 @@ double ves_plan_measure_change(const ves_plan *plan, int m, double a, double b);
 /* reference.c: finds the design that shows where outside is, and turns the plan by it */
 ves_status ves_plan_refer(ves_plan *plan, ves_diag *diag);
 
+/* plan.c. Whether the limit of a constraint is its left side: 1 <= area. */
+bool ves_plan_turned(const ves_problem *problem, const ves_constraint_def *constraint);
+
 #endif

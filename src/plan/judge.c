@@ -103,6 +103,15 @@ static ves_status judge(ves_plan *plan, const ves_ask *ask, int index, ves_verdi
     return status;
 }
 
+double ves_plan_rate(const ves_plan *plan, int constraint, double multiplier)
+{
+    const ves_problem *p = plan->problem;
+    const ves_constraint_def *c = &p->constraint[constraint];
+    double gain = multiplier * own_tolerance(c) / plan->size[constraint]; /* of the verdict's value */
+    bool costs = (c->relation == VES_AT_LEAST) != p->maximize;            /* more on the right */
+    return costs != ves_plan_turned(p, c) ? gain : -gain;
+}
+
 /* The finer grid must tell the same story, or the optimizer has found a hole between the nodes. Two grids
  * agree when the objective does, or, should it be near zero by cancellation, when every measure that is
  * judged does. 1 %: a hole is a matter of factors, and a coarse grid chosen by hand is the user's right. No

@@ -191,6 +191,11 @@ static bool changes(const ves_problem *p, const ves_formula *formula)
     return false;
 }
 
+bool ves_plan_turned(const ves_problem *p, const ves_constraint_def *c)
+{
+    return changes(p, c->right) && !changes(p, c->left);
+}
+
 /* The scale of each violation: |limit| at the start, the limit being the side that is the same for every
  * candidate, or the right one. What is held against it may begin anywhere, a million times beyond: its size
  * counts only where the limit is 0 and says none. */
@@ -199,7 +204,7 @@ static void sizes_fix(ves_plan *plan)
     const ves_problem *p = plan->problem;
     for (int k = 0; k < p->constraints; k++) {
         const ves_constraint_def *c = &p->constraint[k];
-        bool turned = changes(p, c->right) && !changes(p, c->left); /* 1 <= area */
+        bool turned = ves_plan_turned(p, c);
         double limit = fabs(ves_plan_formula(plan, turned ? c->left : c->right));
         double other = fabs(ves_plan_formula(plan, turned ? c->right : c->left));
         double size = limit == 0 ? other : limit;

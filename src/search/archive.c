@@ -5,10 +5,10 @@
 
 static const double near = 1e-3; /* of the ranges: the same optimum */
 
-bool ves_archive_create(ves_archive *archive, ves_session *session)
+bool ves_archive_create(ves_archive *archive, ves_session *session, int room)
 {
-    *archive = (ves_archive){.session = session};
-    archive->end = ves_session_ends(session, VES_ARCHIVE_ROOM + 1);
+    *archive = (ves_archive){.session = session, .room = room};
+    archive->end = ves_session_ends(session, room + 1);
     return archive->end;
 }
 
@@ -19,7 +19,7 @@ bool ves_archive_near(const ves_archive *archive, const ves_point *a, const ves_
     return true;
 }
 
-static int place_of(const ves_archive *archive, const ves_point *point)
+int ves_archive_find(const ves_archive *archive, const ves_point *point)
 {
     for (int k = 0; k < archive->count; k++)
         if (ves_archive_near(archive, &archive->end[k].point, point)) return k;
@@ -31,12 +31,6 @@ static void exchange(ves_archive *archive, int a, int b)
     ves_end end = archive->end[a];
     archive->end[a] = archive->end[b];
     archive->end[b] = end;
-    if (b == VES_ARCHIVE_ROOM) return;
-    long hits = archive->hits[a], blind = archive->blind_hits[a];
-    archive->hits[a] = archive->hits[b];
-    archive->hits[b] = hits;
-    archive->blind_hits[a] = archive->blind_hits[b];
-    archive->blind_hits[b] = blind;
 }
 
 static int rise(ves_archive *archive, int k)
@@ -48,28 +42,24 @@ static int rise(ves_archive *archive, int k)
     return k;
 }
 
-int ves_archive_add(ves_archive *archive, const ves_point *point, bool blind)
+int ves_archive_add(ves_archive *archive, const ves_point *point)
 {
     const ves_session *session = archive->session;
-    archive->met++;
-    archive->blind += blind;
     if (point->verdict.status != VES_OK) return -1;
-    int k = place_of(archive, point);
+    archive->met++;
+    int k = ves_archive_find(archive, point);
     if (k < 0) {
-        archive->kinds += blind;
-        bool full = archive->count == VES_ARCHIVE_ROOM;
+        archive->kinds++;
+        bool full = archive->count == archive->room;
         k = full ? archive->count - 1 : archive->count++;
         if (full && !ves_session_better(session, &point->verdict, &archive->end[k].point.verdict)) return -1;
-        archive->hits[k] = archive->blind_hits[k] = 0;
-        archive->end[k].saddle = archive->end[k].pass = archive->end[k].stalled = false;
+        archive->end[k] = (ves_end){.point = archive->end[k].point};
         ves_point_copy(&archive->end[k].point, point, session->n, session->m);
     } else {
-        if (blind && !archive->blind_hits[k]) archive->kinds++;
         if (ves_session_better(session, &point->verdict, &archive->end[k].point.verdict))
             ves_point_copy(&archive->end[k].point, point, session->n, session->m);
     }
-    archive->hits[k]++;
-    archive->blind_hits[k] += blind;
+    archive->end[k].hits++;
     return rise(archive, k);
 }
 

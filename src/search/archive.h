@@ -8,20 +8,22 @@ enum { VES_ARCHIVE_ROOM = 64 };
 
 typedef struct ves_archive {
     const ves_session *session;
-    int count;
-    ves_end *end;                /* [VES_ARCHIVE_ROOM + 1]; the last is spare */
-    long hits[VES_ARCHIVE_ROOM]; /* how often each was met */
-    long met, blind,
-        kinds; /* all ends; those of descents from random points, and how many of them were new */
-    long blind_hits[VES_ARCHIVE_ROOM]; /* of these, by place */
+    int count, room;
+    ves_end *end; /* [room + 1]; the last is spare */
+    long met,
+        kinds; /* all ends, and how many of them were new: too many where one that there was no room for is
+                        met again */
 } ves_archive;
 
 /* False when out of memory. */
-bool ves_archive_create(ves_archive *archive, ves_session *session);
+bool ves_archive_create(ves_archive *archive, ves_session *session, int room);
 
-/* Adds an end; blind: it was reached from a point drawn at random. Failed ones are counted only. Returns its
+/* Adds an end. Failed ones are not counted. Returns its
  * place, or -1 when it is worse than all of a full archive. */
-int ves_archive_add(ves_archive *archive, const ves_point *point, bool blind);
+int ves_archive_add(ves_archive *archive, const ves_point *point);
+
+/* The place of the end that is near a point, or -1. */
+int ves_archive_find(const ves_archive *archive, const ves_point *point);
 
 /* Forgets an end; brings the ends back into order after prices have changed. */
 void ves_archive_drop(ves_archive *archive, int k);

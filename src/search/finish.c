@@ -1,7 +1,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "search/session.h"
+#include "search/evidence.h"
+#include "search/kkt.h"
 
 /* What a search ends in: the proved best, the distinct ends, the result. */
 
@@ -66,15 +67,28 @@ typedef struct clusters {
     int count;
     int skipped;    /* ends that are not listed: no evaluation was left for their proofs */
     long proofs;    /* that may still be asked for */
-    ves_end *first; /* the best of each */
-    int *hits;
+    ves_end *first; /* the best of each; its hits and blind are those of all */
+    long merged;    /* ends of descents from random points that are one with another such */
 } clusters;
 
-static void cluster_add(clusters *c, ves_session *session, const ves_end *end, int hits)
+static void cluster_new(clusters *c, ves_session *session, const ves_point *point, bool saddle)
 {
-    ves_point_copy(&c->first[c->count].point, &end->point, session->n, session->m);
-    c->first[c->count].saddle = end->saddle;
-    c->hits[c->count++] = hits;
+    ves_point_copy(&c->first[c->count].point, point, session->n, session->m);
+    c->first[c->count++].saddle = saddle;
+}
+
+/* What no portfolio has counted is the one descent that led here. */
+static void cluster_hit(clusters *c, ves_end *first, const ves_end *end)
+{
+    first->hits += end->hits ? end->hits : 1;
+    c->merged += first->blind && end->blind;
+    first->blind += end->blind;
+}
+
+static void cluster_add(clusters *c, ves_session *session, const ves_end *end)
+{
+    cluster_new(c, session, &end->point, end->saddle);
+    cluster_hit(c, &c->first[c->count - 1], end);
 }
 
 /* At the end nothing is kept back. */
@@ -83,26 +97,35 @@ static long spare(const ves_session *session)
     return session->budget - session->evaluations;
 }
 
-/* Puts one end into the cluster that it belongs to, or into a new one when it is feasible, proved and an end
- * by its slope. */
+/* Into the cluster that it belongs to, if there is one. */
+static ves_status cluster_join(clusters *c, ves_asker *asker, const ves_end *end, ves_point *point,
+                               bool *joined)
+{
+    const ves_session *session = asker->session;
+    *joined = false;
+    for (int k = 0; k < c->count && !*joined; k++) {
+        VES_TRY(alike(asker, &c->first[k].point, &end->point, point, joined));
+        if (!*joined) continue;
+        cluster_hit(c, &c->first[k], end);
+        if (end->saddle && !memcmp(c->first[k].point.u, end->point.u, (size_t)session->n * sizeof(double)))
+            c->first[k].saddle = true;
+    }
+    return VES_OK;
+}
+
+/* Or into a new one when it is feasible, proved and an end by its slope. */
 static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_point *point)
 {
     ves_session *session = asker->session;
+    bool joined;
     if (end->point.verdict.violation > session->tolerance) return VES_OK;
-    for (int k = 0; k < c->count; k++) {
-        bool same;
-        VES_TRY(alike(asker, &c->first[k].point, &end->point, point, &same));
-        if (!same) continue;
-        c->hits[k]++;
-        if (end->saddle && !memcmp(c->first[k].point.u, end->point.u, (size_t)session->n * sizeof(double)))
-            c->first[k].saddle = true;
-        return VES_OK;
-    }
+    VES_TRY(cluster_join(c, asker, end, point, &joined));
+    if (joined) return VES_OK;
     if (end->stalled) return VES_OK;
     ves_proof proof;
     ves_asker_flush(asker); /* the proof is told after what led to it, with any number of workers */
     if (ves_session_over(session)) {
-        if (end->point.proved) cluster_add(c, session, end, 1);
+        if (end->point.proved) cluster_add(c, session, end);
         return VES_OK;
     }
     if (ves_session_costs(session, &end->point) && (c->proofs-- <= 0 || spare(session) <= 0)) {
@@ -110,7 +133,7 @@ static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_
         return VES_OK;
     }
     VES_TRY(ves_session_prove(session, &end->point, &proof));
-    if (proof == VES_PROOF_PASSED) cluster_add(c, session, end, 1);
+    if (proof == VES_PROOF_PASSED) cluster_add(c, session, end);
     return VES_OK;
 }
 
@@ -120,13 +143,10 @@ static void cluster_order(clusters *c, double tolerance)
 {
     for (int i = 1; i < c->count; i++) {
         ves_end end = c->first[i];
-        int hits = c->hits[i], j = i;
-        for (; j && ves_verdict_better(&end.point.verdict, &c->first[j - 1].point.verdict, tolerance); j--) {
+        int j = i;
+        for (; j && ves_verdict_better(&end.point.verdict, &c->first[j - 1].point.verdict, tolerance); j--)
             c->first[j] = c->first[j - 1];
-            c->hits[j] = c->hits[j - 1];
-        }
         c->first[j] = end;
-        c->hits[j] = hits;
     }
 }
 
@@ -134,19 +154,21 @@ static ves_status cluster(clusters *c, ves_session *session, const ves_point *be
 {
     ves_point point;
     c->first = ves_session_ends(session, session->ends + 1);
-    c->hits = ves_arena_take(&session->arena, (size_t)session->ends + 1, sizeof(int));
-    if (!c->first || !c->hits || !ves_point_create(&session->arena, session->n, session->m, &point))
-        return VES_MEMORY;
-    ves_end first = {.point = *best};
-    cluster_add(c, session, &first, 0);
+    if (!c->first || !ves_point_create(&session->arena, session->n, session->m, &point)) return VES_MEMORY;
+    cluster_new(c, session, best, false);
     ves_asker asker;
     ves_asker_init(&asker, session, -1);
     ves_status status = VES_OK;
     for (int k = 0; k < session->ends && status == VES_OK; k++)
         status = cluster_sort(c, &asker, &session->end[k], &point);
+    for (int k = 0; k < session->rests && status == VES_OK; k++) {
+        const ves_end *end = &session->rest[k];
+        bool joined, counts = end->hits && end->point.verdict.violation <= session->tolerance;
+        if (counts) status = cluster_join(c, &asker, end, &point, &joined);
+    }
     ves_asker_flush(&asker);
     ves_asker_destroy(&asker);
-    if (!c->hits[0]) c->hits[0] = 1;
+    if (!c->first[0].hits) c->first[0].hits = 1;
     cluster_order(c, session->tolerance);
     if (c->skipped && session->best.verdict.status == VES_OK)
         ves_session_note(session, "the budget left no proofs for %d more end%s: %s not listed", c->skipped,
@@ -288,7 +310,7 @@ static bool fill_optima(ves_search_result *r, ves_session *session, const cluste
         const ves_end *end = &c->first[k];
         optimum[k] = (ves_optimum){.value = end->point.verdict.value,
                                    .violation = end->point.verdict.violation,
-                                   .hits = c->hits[k],
+                                   .hits = (int)end->hits,
                                    .saddle = end->saddle,
                                    .x = copy(&session->kept, end->point.x, session->n)};
         if (!optimum[k].x) return false;
@@ -306,6 +328,12 @@ static bool fill_logs(ves_search_result *r, ves_session *session)
     ves_annealing_report *report =
         ves_arena_take(&session->kept, (size_t)session->annealings, sizeof *report);
     if (!note || !log_copy || !report) return false;
+    ves_strategy_report *strategy =
+        ves_arena_take(&session->kept, (size_t)session->strategies, sizeof *strategy);
+    if (!strategy) return false;
+    for (int k = 0; k < session->strategies; k++) strategy[k] = session->strategy[k];
+    r->strategy = strategy;
+    r->strategies = session->strategies;
     for (int k = 0; k < session->notes; k++) note[k] = session->note[k];
     for (int k = 0; k < session->temperatures; k++) log_copy[k] = session->temperature_log[k];
     for (int k = 0; k < session->annealings; k++) report[k] = session->annealing_log[k];
@@ -331,11 +359,13 @@ static ves_status fill(box *b, ves_session *session)
     const ves_point *best;
     bool proved;
     clusters c = {0};
+    r->kkt = (ves_kkt){.slope = NAN, .residual = NAN};
     VES_TRY(choose(session, &best, &proved, &c.proofs));
     bool feasible = proved && best->verdict.violation <= session->tolerance;
     if (feasible) {
         VES_TRY(cluster(&c, session, best));
         best = &c.first[0].point;
+        VES_TRY(ves_kkt_find(session, best, spare(session), &r->kkt));
     }
     if (session->fault) return session->fault;
     r->n = session->n;
@@ -345,6 +375,12 @@ static ves_status fill(box *b, ves_session *session)
         session->ending = VES_ENDED_STOPPED;
         session->stop = ves_status_text(VES_INTERRUPTED);
     }
+    if (session->fault) return session->fault;
+    const ves_witness witness = {.feasible = feasible,
+                                 .refused = feasible && refused_best(session),
+                                 .hits = feasible ? c.first[0].blind : 0,
+                                 .merged = c.merged};
+    r->evidence = ves_evidence_judge(session, &witness);
     if (session->fault) return session->fault;
     bool ok = fill_best(r, session, best, feasible) && fill_optima(r, session, &c) && fill_logs(r, session);
     return ok ? VES_OK : VES_MEMORY;

@@ -230,7 +230,10 @@ static void judge(hop *h, task *t)
     same =
         same || fabs(t->end.verdict.value - h->current.verdict.value) <= alike * fabs(t->end.verdict.value);
     bool better = ves_session_better(session, &t->end.verdict, &h->current.verdict);
-    ves_archive_add(&h->team->archive, &t->end, t->kernel == BLIND);
+    ves_archive_add(&h->team->archive, &t->end);
+    /* descents of another kind fall into other basins */
+    if (t->kernel == BLIND && h->slopes == session->problem->gradients)
+        ves_archive_add(&h->team->blind, &t->end);
     h->cost[t->kernel] += (double)(t->looks + t->descent.used);
     ves_team_take(h->team, &t->end);
     if (t->descent.hopeless) return;

@@ -177,6 +177,7 @@ void ves_search_complete(ves_session *session, const ves_search_options *options
     for (int k = 0; k < session->stages; k++) {
         ves_stage *stage = &session->stage[k];
         session->grows[k] = options->evaluations && !asked(stage);
+        session->saves[k] = !options->evaluations && !asked(stage);
         if (stage->kind == VES_STAGE_AUTO) {
             if (!stage->automatic.evaluations) stage->automatic.evaluations = 2000 + 2000 * (long)problem->n;
             ends = AUTO_STARTS;

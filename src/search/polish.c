@@ -16,6 +16,7 @@ typedef struct task {
     int waiting; /* points to descend from */
     ves_point wait[WAITING];
     int above[WAITING]; /* the saddle that each has left: its place among the ends; -1: none */
+    long hits, blind;   /* of the end that it starts from: they go to where the first descent ends */
     int ends;
     ves_end end[ENDS];
     int escapes, halves; /* saddles; those that were left to one side only */
@@ -36,13 +37,15 @@ static bool task_create(task *t, ves_session *session, int index, const ves_poli
 {
     if (!ves_descent_create(&t->descent, session, index, options, budget)) return false;
     t->start = &session->end[index].point;
+    t->hits = session->end[index].hits;
+    t->blind = session->end[index].blind;
     t->checks = !options->stay && t->descent.recipe.gradient && session->problem->gradients &&
                 session->n <= VES_SADDLE_MOST;
     for (int k = 0; k < WAITING; k++)
         if (!ves_point_create(&session->arena, session->n, session->m, &t->wait[k])) return false;
     for (int k = 0; k < ENDS; k++)
         if (!ves_point_create(&session->arena, session->n, session->m, &t->end[k].point)) return false;
-    return !t->checks || ves_saddle_create(&t->saddle, session);
+    return !t->checks || ves_saddle_create(&t->saddle, session, true);
 }
 
 /* Steps off the saddle; what lies lower waits for its own descent. */
@@ -88,6 +91,8 @@ static ves_status advance(task *t)
     int at = t->ends++, from = --t->waiting, above = t->above[from];
     ves_end *end = &t->end[at];
     end->saddle = end->pass = end->stalled = false;
+    end->hits = at ? 0 : t->hits;
+    end->blind = at ? 0 : t->blind;
     ves_status status = ves_descent_run(&t->descent, &t->wait[from], &end->point);
     if (above >= 0 && lower(t, &end->point.verdict, &t->end[above].point.verdict)) t->end[above].pass = true;
     VES_TRY(status);
@@ -260,23 +265,22 @@ static ves_status collect(polish *p)
     ves_session *session = p->session;
     int count = 0;
     for (int k = 0; k < p->tasks; k++) count += p->task[k].ends;
-    ves_end *end = ves_session_ends(session, count);
+    ves_end *end = ves_arena_take(&session->arena, (size_t)count, sizeof *end);
     ves_point **point = ves_arena_take(&session->arena, (size_t)count, sizeof *point);
     bool *refused = ves_arena_take(&session->arena, (size_t)count, sizeof *refused);
     if (!end || !point || !refused) return VES_MEMORY;
     int at = 0;
     for (int k = 0; k < p->tasks; k++)
-        for (int e = 0; e < p->task[k].ends; e++, at++) {
-            ves_point_copy(&end[at].point, &p->task[k].end[e].point, session->n, session->m);
-            end[at].saddle = p->task[k].end[e].saddle;
-            end[at].pass = p->task[k].end[e].pass;
-            end[at].stalled = p->task[k].end[e].stalled;
-        }
+        for (int e = 0; e < p->task[k].ends; e++) end[at++] = p->task[k].end[e];
     ves_session_sort(session, end, count);
     for (int k = 0; k < count; k++) point[k] = &end[k].point;
     VES_TRY(ves_session_offer(session, point, count, p->proofs, refused));
     forget_passes(session, end, &count);
     if (count) {
+        if (session->rest == session->end + session->ends) { /* the portfolio's */
+            session->rest = session->end + p->tasks;
+            session->rests += session->ends - p->tasks;
+        }
         session->end = end;
         session->ends = count;
     }

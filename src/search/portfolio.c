@@ -2,22 +2,27 @@
 #include <string.h>
 
 #include "search/descent.h"
+#include "search/evidence.h"
 #include "search/slots.h"
 #include "search/spread.h"
 
 /* The portfolio: strategies that take turns, each with a share of the evaluations that follows its progress.
  * Every one is paused, never thrown away, so that none loses what it has learned. */
 
-enum { MEMBERS = 16, SLICE = 16 };
+enum { MEMBERS = VES_STRATEGIES / VES_STAGES - 1, SLICE = 16 };
+
+/* What is enough to end before a budget that nobody gave is spent: so many descents from random points to the
+ * best, and so little of the box that is expected to lead to minima which none of them has seen. */
+enum { ENOUGH = 10, LEADERS = 8, BLIND_ROOM = 512 };
+static const double little = 0.01;
 
 typedef struct member {
     const ves_strategy *strategy;
     void *state;
     double base, share; /* of the evaluations: at first, and now */
     double used;        /* cost so far: a gradient costs as much as two evaluations */
-    long evaluations;
     bool done;
-    int bests; /* how often it has found a new one */
+    ves_strategy_report *report;
 } member;
 
 typedef struct portfolio {
@@ -34,6 +39,7 @@ typedef struct portfolio {
     long proofs;       /* that may still be asked for */
     const char *only;  /* the one member, or NULL */
     long started;      /* ends that were there at first */
+    ves_strategy_report *refining;
 } portfolio;
 
 bool ves_team_take(ves_team *team, const ves_point *point)
@@ -41,7 +47,16 @@ bool ves_team_take(ves_team *team, const ves_point *point)
     const ves_session *session = team->session;
     if (!ves_session_better(session, &point->verdict, &team->best.verdict)) return false;
     ves_point_copy(&team->best, point, session->n, session->m);
+    team->bests++;
     return true;
+}
+
+static ves_strategy_report *report_new(const portfolio *p, const char *name)
+{
+    ves_session *session = p->session;
+    ves_strategy_report *report = &session->strategy[session->strategies++];
+    *report = (ves_strategy_report){.stage = session->stage_index, .name = name};
+    return report;
 }
 
 static bool add(portfolio *p, const ves_strategy *strategy, double share)
@@ -50,8 +65,10 @@ static bool add(portfolio *p, const ves_strategy *strategy, double share)
     uint32_t stream = (uint32_t)p->session->stage_index << 20 | (uint32_t)(p->members + 1) << 16;
     *m = (member){.strategy = strategy, .base = share, .share = share};
     m->state = strategy->create(&p->team, stream);
-    p->members += m->state != NULL;
-    return m->state;
+    if (!m->state) return false;
+    p->members++;
+    m->report = report_new(p, strategy->name);
+    return true;
 }
 
 static ves_ground ground_of(const ves_session *session)
@@ -66,7 +83,8 @@ static bool create(portfolio *p)
 {
     ves_session *session = p->session;
     p->team = (ves_team){.session = session, .weight = 1};
-    if (!ves_archive_create(&p->team.archive, session)) return false;
+    if (!ves_archive_create(&p->team.archive, session, VES_ARCHIVE_ROOM)) return false;
+    if (!ves_archive_create(&p->team.blind, session, BLIND_ROOM)) return false;
     if (!ves_point_create(&session->arena, session->n, session->m, &p->team.best)) return false;
     if (!ves_point_create(&session->arena, session->n, session->m, &p->refined)) return false;
     p->exact = (ves_polish){.algorithm = ves_search_algorithm(session->problem, &p->exact),
@@ -76,13 +94,17 @@ static bool create(portfolio *p)
     p->descent.runs = 2;
     p->asker = &p->descent.asker;
     for (int k = 0; k < session->ends; k++) {
-        ves_archive_add(&p->team.archive, &session->end[k].point, false);
+        int at = ves_archive_add(&p->team.archive, &session->end[k].point);
+        if (at >= 0) p->team.archive.end[at].hits = 0; /* no descent of this stage has been there */
         ves_team_take(&p->team, &session->end[k].point);
     }
     p->started = p->team.archive.met;
+    p->refining = report_new(p, "refine");
     const ves_ground ground = ground_of(session);
+    const bool saves = session->saves[session->stage_index];
     for (const ves_strategy *const *each = ves_slots_strategies(); *each; each++) {
-        bool chosen = p->only ? !strcmp(p->only, (*each)->name) : (*each)->share[ground] > 0;
+        bool fits = (*each)->share[ground] > 0 && (saves || !(*each)->saves);
+        bool chosen = p->only ? !strcmp(p->only, (*each)->name) : fits;
         if (chosen && p->members < MEMBERS && !add(p, *each, p->only ? 1 : (*each)->share[ground]))
             return false;
     }
@@ -136,7 +158,7 @@ static ves_status refine(portfolio *p)
     VES_TRY(ves_session_round(session, &p->asker, 1, descend, p));
     bool lower = ves_session_better(session, &p->refined.verdict, &best->verdict);
     p->unfinished = lower && ves_descent_spent(&p->descent);
-    ves_archive_add(&p->team.archive, &p->refined, false);
+    ves_archive_add(&p->team.archive, &p->refined);
     if (!ves_team_take(&p->team, &p->refined)) ves_point_copy(&p->refined, best, session->n, session->m);
     return VES_OK;
 }
@@ -163,44 +185,122 @@ static ves_status prove(portfolio *p)
     return VES_OK;
 }
 
+/* What refines a best of another leaves it to that one. */
+static void credit(portfolio *p, ves_strategy_report *finder)
+{
+    bool theirs = false;
+    finder->bests++;
+    for (int k = 0; k < p->members; k++) theirs = theirs || p->member[k].report->best;
+    if (theirs && finder == p->refining) return;
+    for (int k = 0; k < p->members; k++) p->member[k].report->best = false;
+    p->refining->best = false;
+    finder->best = true;
+}
+
+/* What the session has asked for since then goes to a report's account, and a new best to its credit. */
+typedef struct account {
+    long evaluations, gradients, bests;
+} account;
+
+static account account_open(const portfolio *p)
+{
+    return (account){p->session->evaluations, p->session->gradients, p->team.bests};
+}
+
+static void account_close(portfolio *p, const account *since, ves_strategy_report *report)
+{
+    report->evaluations += p->session->evaluations - since->evaluations;
+    report->gradients += p->session->gradients - since->gradients;
+    if (p->team.bests > since->bests) credit(p, report);
+}
+
 static ves_status turn(portfolio *p, member *m)
 {
     ves_session *session = p->session;
     long slice = (session->evaluations - p->before) / SLICE, least = m->strategy->least(m->state);
     if (slice < least) slice = least;
-    long evaluations = session->evaluations, gradients = session->gradients;
-    const ves_verdict was = p->team.best.verdict;
+    const account all = account_open(p);
     session->stage_name = m->strategy->name;
     VES_TRY(m->strategy->advance(m->state, slice, left(p)));
-    bool gained = ves_session_better(session, &p->team.best.verdict, &was);
+    account_close(p, &all, m->report);
+    bool gained = p->team.bests > all.bests;
+    const account refining = account_open(p);
     if (!gained && !ves_session_over(session)) VES_TRY(refine(p));
+    account_close(p, &refining, p->refining);
     if (!gained && p->proofs > 1 && !ves_session_over(session)) VES_TRY(prove(p));
-    evaluations = session->evaluations - evaluations;
-    gradients = session->gradients - gradients;
-    m->evaluations += evaluations;
-    m->used += (double)evaluations + 2 * (double)gradients;
+    long evaluations = session->evaluations - all.evaluations;
+    m->used += (double)evaluations + 2 * (double)(session->gradients - all.gradients);
     if (!evaluations) m->done = true;
-    m->bests += gained;
     m->share = gained ? fmin(4 * m->base, 2 * m->share) : fmax(m->base, 0.8 * m->share);
     ves_session_progress(session);
+    return VES_OK;
+}
+
+/* The best is refined, and descents that know nothing of it have come to it often enough. */
+static bool enough(const portfolio *p)
+{
+    const ves_archive *blind = &p->team.blind;
+    const ves_session *session = p->session;
+    const ves_point *best = &p->team.best;
+    if (!session->saves[session->stage_index] || p->unfinished) return false;
+    int at = ves_archive_find(blind, best);
+    return at >= 0 && blind->end[at].hits >= ENOUGH &&
+           ves_evidence_unseen(blind->met, blind->kinds) < little &&
+           !memcmp(best->u, p->refined.u, (size_t)session->n * sizeof(double));
+}
+
+/* For the last polish, which takes the first of them: the best of all, then the best ends of independent descents,
+ * which a flat optimum may have crowded out, then the rest. */
+static ves_status hand_over(portfolio *p)
+{
+    ves_session *session = p->session;
+    ves_archive *archive = &p->team.archive, *blind = &p->team.blind;
+    int first = archive->count < LEADERS ? archive->count : LEADERS, others = 0, count = 0;
+    ves_end *end = ves_arena_take(&session->arena, (size_t)(archive->count + blind->count), sizeof *end);
+    ves_end **other = ves_arena_take(&session->arena, (size_t)blind->count, sizeof *other);
+    if (!end || !other) return VES_MEMORY;
+    for (int k = 0; k < blind->count; k++) {
+        int at = ves_archive_find(archive, &blind->end[k].point);
+        blind->end[k].blind = blind->end[k].hits;
+        if (at >= 0)
+            archive->end[at].blind += blind->end[k].hits;
+        else if (blind->end[k].point.proved || ves_session_costs(session, &blind->end[k].point))
+            other[others++] = &blind->end[k]; /* not those that were refused */
+    }
+    const int some = others < LEADERS ? others : LEADERS;
+    for (int k = 0; k < first; k++) end[count++] = archive->end[k];
+    for (int k = 0; k < some; k++) end[count++] = *other[k];
+    for (int k = first; k < archive->count; k++) end[count++] = archive->end[k];
+    session->rest = end + count;
+    session->rests = others - some;
+    for (int k = some; k < others; k++) session->rest[k - some] = *other[k];
+    session->blind = blind->met;
+    session->kinds = blind->kinds;
+    if (!count) return VES_OK; /* all were refused: what the stage began with stays */
+    session->end = end;
+    session->ends = count;
     return VES_OK;
 }
 
 static ves_status finish(portfolio *p)
 {
     ves_session *session = p->session;
-    ves_archive *archive = &p->team.archive;
-    if (!ves_session_over(session))
+    const ves_archive *blind = &p->team.blind;
+    if (enough(p))
+        ves_session_stop(
+            session, VES_ENDED_DONE,
+            "auto: %ld of %ld descents from random points ended at the best, and less than %g %% of the box "
+            "is expected to lead elsewhere",
+            blind->end[ves_archive_find(blind, &p->team.best)].hits, blind->met, 100 * little);
+    else if (!ves_session_over(session))
         ves_session_stop(session, VES_ENDED_BUDGET, "auto: its budget of %ld evaluations is spent",
                          p->budget);
-    if (!ves_session_over(session) && !p->only && archive->met <= p->started + 2)
+    if (!ves_session_over(session) && !p->only && p->team.archive.met <= p->started + 2)
         ves_session_note(
             session,
             "the budget of %ld evaluations was too short for auto to do more than descend from the start",
             p->budget);
-    session->end = archive->end;
-    session->ends = archive->count;
-    return VES_OK;
+    return hand_over(p);
 }
 
 /* --- a look round --- */
@@ -280,6 +380,7 @@ ves_status ves_portfolio_run(ves_session *session, const ves_auto *options, long
         member *m = next(&p);
         if (!m) break;
         status = turn(&p, m);
+        if (status == VES_OK && enough(&p)) break;
     }
     if (status == VES_OK) status = finish(&p);
     ves_descent_destroy(&p.descent);

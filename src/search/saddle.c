@@ -24,14 +24,18 @@ static const double sideways =
 static const double steep = 1e-3; /* of the slope at the start: no descent stops there of itself */
 static const double rise = 1e-4;  /* nor with a slope that makes this part of the objective across the box */
 
-bool ves_saddle_create(ves_saddle *s, ves_session *session)
+bool ves_saddle_create(ves_saddle *s, ves_session *session, bool second)
 {
     size_t n = (size_t)session->n, m = (size_t)session->m;
     ves_arena *arena = &session->arena;
     *s = (ves_saddle){0};
-    double **planes[] = {&s->basis, &s->factor, &s->hessian, &s->vector};
-    for (int k = 0; k < 4; k++)
+    double **planes[] = {&s->hessian, &s->vector};
+    for (int k = 0; second && k < 2; k++)
         if (!(*planes[k] = ves_arena_take(arena, n * n, sizeof(double)))) return false;
+    const size_t rank = m < n ? m : n;
+    s->basis = ves_arena_take(arena, rank * n, sizeof(double));
+    s->factor = ves_arena_take(arena, rank * n, sizeof(double));
+    if (!s->basis || !s->factor) return false;
     double **rows[] = {&s->base, &s->slope, &s->plus, &s->minus, &s->value, &s->direction, &s->trial};
     for (int k = 0; k < 7; k++)
         if (!(*rows[k] = ves_arena_take(arena, n, sizeof(double)))) return false;
@@ -326,13 +330,9 @@ static bool stalls(const ves_saddle *s, const ves_descent *d)
     return most > steep * d->first_scale && most > rise * size && most > d->options->x_tolerance * s->largest;
 }
 
-ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *point, bool *negative)
+ves_status ves_saddle_slopes(ves_saddle *s, ves_descent *d, const double *u)
 {
-    int n = d->session->n;
-    long mended = d->mended;
-    *negative = s->running = s->stalled = false;
-    s->edge = -1;
-    memcpy(s->base, point->u, (size_t)n * sizeof(double));
+    memcpy(s->base, u, (size_t)d->session->n * sizeof(double));
     VES_TRY(ves_descent_look(d, s->base, true));
     if (d->last.status != VES_OK) return VES_OK;
     for (int pass = 0; pass < 2; pass++) {
@@ -340,6 +340,17 @@ ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *poin
         multipliers(s, d);
         lagrangian_slope(s, d, s->slope);
     }
+    return VES_OK;
+}
+
+ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *point, bool *negative)
+{
+    int n = d->session->n;
+    long mended = d->mended;
+    *negative = s->running = s->stalled = false;
+    s->edge = -1;
+    VES_TRY(ves_saddle_slopes(s, d, point->u));
+    if (d->last.status != VES_OK) return VES_OK;
     s->lagrangian = lagrangian(s, d);
     if (d->session->m) memcpy(s->touching, d->last.jacobian, (size_t)(d->session->m * n) * sizeof(double));
     if (!s->frees) return VES_OK;

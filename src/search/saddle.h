@@ -17,8 +17,8 @@ typedef struct ves_saddle {
     int *free;                    /* [n] variables that no wall holds */
     double *base;                 /* [n] the point, in the unit box */
     double *slope, *plus, *minus; /* [n] of the Lagrangian, scaled to the unit box */
-    double *basis;                /* [n][n] orthonormal rows that span the active constraints' gradients */
-    double *factor;               /* [n][n] their triangular factor */
+    double *basis;                /* [m][n] orthonormal rows that span the active constraints' gradients */
+    double *factor;               /* [m][n] their triangular factor; of both at most n rows */
     double *hessian, *vector, *value; /* [n][n], [n][n], [n] */
     double *direction;                /* [n] of lowest curvature, in the unit box */
     double *trial;                    /* [n] */
@@ -33,7 +33,12 @@ typedef struct ves_saddle {
     bool stalled; /* away from any edge the slope has not vanished: no stationary point of a smooth value */
 } ves_saddle;
 
-bool ves_saddle_create(ves_saddle *saddle, ves_session *session);
+/* second: also for the check, which needs n^2 numbers; without it multipliers alone can be had. */
+bool ves_saddle_create(ves_saddle *saddle, ves_session *session, bool second);
+
+/* Looks at u: what touches it, the multipliers and the slope of the Lagrangian. descent->last.status tells whether
+ * it can be measured. */
+ves_status ves_saddle_slopes(ves_saddle *saddle, ves_descent *descent, const double *u);
 
 /* negative: the point is stationary, and there is a direction of negative curvature at it, clear of the noise
  * of the differences, that some feasible way follows. */

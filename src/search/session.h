@@ -28,6 +28,8 @@ typedef struct ves_end {
     bool saddle;
     bool pass;    /* a saddle, and a descent from it ended lower */
     bool stalled; /* at a slope that has not vanished: a kink, or no end at all */
+    long hits;    /* descents that a portfolio has seen end here; 0: none was counted */
+    long blind;   /* of these, from points drawn uniformly */
 } ves_end;
 
 /* One member's line to the evaluator. What it has been answered since it was flushed last stands in `said`,
@@ -64,6 +66,7 @@ struct ves_session {
     int stages, stage_index;
     ves_stage stage[VES_STAGES];
     bool grows[VES_STAGES]; /* the stage has no budget of its own */
+    bool saves[VES_STAGES]; /* nobody has given it a budget: what it can do without goes back */
     const char *stage_name;
     long budget;   /* of the whole search */
     long reserved; /* of it, for the proofs at the end */
@@ -98,6 +101,11 @@ struct ves_session {
     ves_temperature *temperature_log;
     int annealings, annealing_room;
     ves_annealing_report *annealing_log;
+    int strategies;
+    ves_strategy_report strategy[VES_STRATEGIES];
+    int rests; /* ends of the last portfolio that were not polished: they tell how often, not where */
+    ves_end *rest;
+    long blind, kinds; /* of the last portfolio: descents from points drawn uniformly; their distinct ends */
 };
 
 ves_status ves_session_init(ves_session *session, const ves_search_problem *problem,

@@ -233,6 +233,87 @@ static void statistics(const ves_run *run, ves_json *json)
     ves_json_end(json, ']');
 }
 
+static void strategies(const ves_run *run, ves_json *json)
+{
+    ves_json_array(json, "strategies");
+    for (int k = 0; k < run->strategies; k++) {
+        const ves_strategy_report *r = &run->strategy[k];
+        ves_json_object(json, NULL);
+        ves_json_integer(json, "stage", r->stage);
+        ves_json_text(json, "name", r->name);
+        ves_json_integer(json, "evaluations", r->evaluations);
+        ves_json_integer(json, "gradients", r->gradients);
+        ves_json_integer(json, "bests", r->bests);
+        ves_json_flag(json, "best", r->best);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+}
+
+static void evidence(const ves_run *run, ves_json *json)
+{
+    static const char *const word[] = {"none",   "stopped",   "refused", "budget too short",
+                                       "frozen", "converged", "repeated"};
+    const ves_evidence *e = &run->evidence;
+    if (!e->sentence) return;
+    ves_json_object(json, "evidence");
+    ves_json_text(json, "verdict", word[e->trust]);
+    ves_json_text(json, "sentence", e->sentence);
+    ves_json_integer(json, "descents", e->descents);
+    ves_json_integer(json, "minima", e->minima);
+    ves_json_integer(json, "hits", e->hits);
+    ves_json_number(json, "expected_minima", e->expected);
+    ves_json_number(json, "unseen", e->unseen);
+    ves_json_end(json, '}');
+}
+
+/* What of the objective one unit of something costs. */
+static void rate(const ves_problem *problem, ves_dim of, double value, ves_json *json)
+{
+    ves_dim dim = problem->objective ? ves_formula_dim(problem->objective) : (ves_dim){.any = true};
+    dim.m = (signed char)(dim.m - of.m);
+    dim.kg = (signed char)(dim.kg - of.kg);
+    dim.s = (signed char)(dim.s - of.s);
+    ves_json_number(json, "rate", value);
+    unit(problem, "unit", dim, json);
+}
+
+/* What holds the best, and what the objective changes by when it is moved: by so much for each unit added to the
+ * limit of the constraint, or to the bound. */
+static void kkt(const ves_run *run, ves_json *json)
+{
+    const ves_problem *p = run->problem;
+    const ves_kkt *k = &run->kkt;
+    if (!k->known) return;
+    ves_json_object(json, "kkt");
+    ves_json_number(json, "slope", k->slope);
+    ves_json_number(json, "residual", k->residual);
+    ves_json_flag(json, "unique", k->unique);
+    ves_json_array(json, "constraints");
+    for (int j = 0; j < p->constraints; j++) {
+        const ves_constraint_def *c = &p->constraint[j];
+        ves_dim dim = ves_formula_dim(c->left);
+        if (k->multiplier[j] == 0) continue;
+        ves_json_object(json, NULL);
+        ves_json_text(json, "text", c->text);
+        rate(p, dim.any ? ves_formula_dim(c->right) : dim, k->multiplier[j], json);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+    ves_json_array(json, "bounds");
+    for (int i = 0; i < p->variables; i++) {
+        const ves_variable *v = &p->variable[i];
+        if (k->bound[i] == 0) continue;
+        ves_json_object(json, NULL);
+        ves_json_text(json, "variable", v->name);
+        ves_json_text(json, "side", run->best.x[i] - v->min < v->max - run->best.x[i] ? "lower" : "upper");
+        rate(p, v->dim, k->bound[i], json);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+    ves_json_end(json, '}');
+}
+
 /* The files to give again with --plugin. */
 static void plugins(const ves_problem *problem, ves_json *json)
 {
@@ -295,6 +376,9 @@ void ves_result_write(const ves_run *run, ves_json *json)
     grids(run, json);
     start(run, json);
     optima(run, json);
+    evidence(run, json);
+    kkt(run, json);
+    strategies(run, json);
     sentences(run, json);
     statistics(run, json);
 }

@@ -145,6 +145,44 @@ static ves_status counts_take(ves_study *s, const ves_search_result *r)
     return VES_OK;
 }
 
+/* Appended: what searches again polishes only. */
+static ves_status strategies_take(ves_study *s, const ves_search_result *r)
+{
+    ves_run *run = s->run;
+    size_t count = (size_t)(run->strategies + r->strategies);
+    ves_strategy_report *strategy = ves_arena_take(s->arena, count, sizeof *strategy);
+    if (!strategy) return VES_MEMORY;
+    for (int k = 0; k < run->strategies; k++) strategy[k] = run->strategy[k];
+    for (int k = 0; k < r->strategies; k++) strategy[run->strategies++] = r->strategy[k];
+    run->strategy = strategy;
+    return VES_OK;
+}
+
+/* In the terms of the file. */
+static ves_status kkt_take(ves_study *s, const ves_search_result *r)
+{
+    double *rate = ves_arena_take(s->arena, (size_t)r->m, sizeof *rate);
+    double *bound = ves_arena_take(s->arena, (size_t)r->n, sizeof *bound);
+    if (!rate || !bound) return VES_MEMORY;
+    s->run->kkt = r->kkt;
+    if (!r->kkt.known) return VES_OK;
+    for (int k = 0; k < r->m; k++) rate[k] = ves_plan_rate(s->plan[0], k, r->kkt.multiplier[k]);
+    for (int i = 0; i < r->n; i++) bound[i] = s->problem->maximize ? -r->kkt.bound[i] : r->kkt.bound[i];
+    s->run->kkt.multiplier = rate;
+    s->run->kkt.bound = bound;
+    return VES_OK;
+}
+
+static ves_status evidence_take(ves_study *s, const ves_search_result *r)
+{
+    ves_evidence *e = &s->run->evidence;
+    *e = r->evidence;
+    e->sentence = ves_arena_text(s->arena, e->sentence, strlen(e->sentence));
+    VES_TRY(e->sentence ? VES_OK : VES_MEMORY);
+    VES_TRY(strategies_take(s, r));
+    return kkt_take(s, r);
+}
+
 static ves_status result_take(ves_study *s, const ves_search_result *r)
 {
     ves_run *run = s->run;
@@ -154,7 +192,8 @@ static ves_status result_take(ves_study *s, const ves_search_result *r)
     run->gradients += r->gradients;
     run->refused += r->refused;
     VES_TRY(words_take(s, r));
-    if (counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK) return ves_diag_fail(s->diag, VES_MEMORY);
+    if (counts_take(s, r) != VES_OK || optima_take(s, r) != VES_OK || evidence_take(s, r) != VES_OK)
+        return ves_diag_fail(s->diag, VES_MEMORY);
     double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
     if (!x) return ves_diag_fail(s->diag, VES_MEMORY);
     const double *from = r->any ? r->x : s->from; /* or no point is better than another */

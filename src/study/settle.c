@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/diag.h"
 
@@ -65,18 +66,35 @@ ves_status ves_settle_hits(const ves_optimum *old, int count, ves_arena *arena, 
     return VES_OK;
 }
 
+/* The polish on the finer grid has counted no descents: those on the coarser one tell of the same optimum, or of
+ * another. */
+static ves_status evidence_keep(ves_study *s, const ves_evidence *before, const double *best)
+{
+    static const char *const other =
+        "converged, on the finer grid, to another optimum than the best of the coarser";
+    ves_run *run = s->run;
+    if (!before->descents || run->evidence.trust != VES_TRUST_CONVERGED) return VES_OK;
+    if (nearest(run, best) == 0)
+        run->evidence = *before;
+    else
+        run->evidence.sentence = ves_arena_text(s->arena, other, strlen(other));
+    return run->evidence.sentence ? VES_OK : ves_diag_fail(s->diag, VES_MEMORY);
+}
+
 /* The optima, the best first, polished once more on the finer grid; what is reported is measured there. */
 static ves_status polish_again(ves_study *s, const ves_search_options *again)
 {
     ves_run *run = s->run;
     const ves_optimum *old = run->optimum;
     const int count = run->optima;
+    const ves_evidence before = run->evidence;
     const double **from = ves_arena_take(s->arena, (size_t)count + 1, sizeof *from);
     if (!from) return ves_diag_fail(s->diag, VES_MEMORY);
     from[0] = run->best.x;
     for (int k = 1; k < count; k++) from[k] = old[k].x;
     VES_TRY(ves_study_search(s, again, from, count > 1 ? count : 1));
     if (ves_settle_hits(old, count, s->arena, run) != VES_OK) return ves_diag_fail(s->diag, VES_MEMORY);
+    if (count) VES_TRY(evidence_keep(s, &before, old[0].x));
     if (run->optima >= count) return VES_OK;
     char text[VES_SENTENCE];
     snprintf(text, sizeof text, "of the %d optima on the coarser grid %d were%s found again on the finer one",

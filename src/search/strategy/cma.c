@@ -128,7 +128,7 @@ static void end(cma *c)
     for (int k = 1; k < STRANDS; k++)
         if (ves_session_better(c->session, &c->strand[k].best.verdict, &best->best.verdict))
             best = &c->strand[k];
-    ves_archive_add(&c->team->archive, &best->best, false);
+    ves_archive_add(&c->team->archive, &best->best);
 }
 
 static bool over(const cma *c)

@@ -243,7 +243,7 @@ static ves_status finish(lines *l, long left)
     l->descent.used = 0;
     l->descent.budget = left < descent_cost(l) ? left : descent_cost(l);
     VES_TRY(ves_session_round(l->session, &l->descent_asker, 1, descend, l));
-    ves_archive_add(&l->team->archive, &l->end, false);
+    ves_archive_add(&l->team->archive, &l->end);
     ves_team_take(l->team, &l->end);
     return VES_OK;
 }

@@ -9,7 +9,10 @@
 typedef struct ves_team {
     ves_session *session;
     ves_archive archive;
+    ves_archive
+        blind; /* ends of descents from points drawn uniformly from the box alone: independent of all else */
     ves_point best; /* of all; failed while there is none */
+    long bests;     /* how many there were */
     double weight;  /* penalty per unit of violation, for those that need one number */
 } ves_team;
 
@@ -25,6 +28,7 @@ typedef enum ves_ground {
 typedef struct ves_strategy {
     const char *name, *about;
     double share[VES_GROUNDS]; /* of the evaluations at first, to those of others; 0: not there */
+    bool saves; /* there only where nobody gave a budget: what it finds may show that enough is spent */
     /* Its random numbers are those of chains stream, stream + 1 ... stream + 255. NULL: out of memory. */
     void *(*create)(ves_team *team, uint32_t stream);
     long (*least)(const void *state); /* evaluations that its next round needs */
