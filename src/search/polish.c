@@ -19,6 +19,9 @@ typedef struct task {
     long hits, blind;   /* of the end that it starts from: they go to where the first descent ends */
     int ends;
     ves_end end[ENDS];
+    int sides[ENDS];     /* descents from beside the saddle that are still to come, or broke off */
+    bool loose[ENDS];    /* more touches it than has a multiplier */
+    int acquitted;       /* that were none */
     int escapes, halves; /* saddles; those that were left to one side only */
     int mostly;          /* along which variable the first was */
     int edges, edge;     /* ends beside what cannot be measured; along which variable, at the first */
@@ -48,6 +51,15 @@ static bool task_create(task *t, ves_session *session, int index, const ves_poli
     return !t->checks || ves_saddle_create(&t->saddle, session, true);
 }
 
+/* Where more touches a point than has a multiplier, another choice of multipliers may have no negative curvature, and
+ * it takes one for all of them to make a saddle [Nocedal and Wright 2006, 12.5]: there the descents decide. */
+static void acquit(task *t, int at)
+{
+    if (t->sides[at] || !t->loose[at] || t->end[at].pass || ves_descent_spent(&t->descent)) return;
+    t->end[at].saddle = false;
+    t->acquitted++;
+}
+
 /* Steps off the saddle; what lies lower waits for its own descent. */
 static ves_status leave(task *t, int at)
 {
@@ -62,6 +74,9 @@ static ves_status leave(task *t, int at)
     }
     for (int k = found[0] + found[1]; k; k--) t->above[t->waiting++] = at;
     t->halves += found[0] != found[1];
+    t->sides[at] = found[0] + found[1];
+    t->loose[at] = t->saddle.near > t->saddle.active;
+    acquit(t, at);
     return status;
 }
 
@@ -96,6 +111,8 @@ static ves_status advance(task *t)
     ves_status status = ves_descent_run(&t->descent, &t->wait[from], &end->point);
     if (above >= 0 && lower(t, &end->point.verdict, &t->end[above].point.verdict)) t->end[above].pass = true;
     VES_TRY(status);
+    if (above >= 0 && !ves_descent_spent(&t->descent)) t->sides[above]--;
+    if (above >= 0) acquit(t, above);
     if (!t->checks || ves_descent_spent(&t->descent)) return VES_OK;
     VES_TRY(ves_saddle_check(&t->saddle, &t->descent, &end->point, &end->saddle));
     if (t->saddle.edge >= 0) note_edge(t);
@@ -139,11 +156,11 @@ static void note_saddles(polish *p)
     const task *first = NULL;
     int met = 0, left = 1, saddles = 0, halves = 0;
     for (int k = 0; k < p->tasks; k++) {
-        if (!p->task[k].escapes) continue;
+        if (p->task[k].escapes == p->task[k].acquitted) continue;
         if (!first) first = &p->task[k];
         met++;
         left = left && !stuck(&p->task[k]);
-        saddles += p->task[k].escapes;
+        saddles += p->task[k].escapes - p->task[k].acquitted;
         halves += p->task[k].halves;
     }
     if (!met) return;

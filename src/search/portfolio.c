@@ -13,7 +13,7 @@ enum { MEMBERS = VES_STRATEGIES / VES_STAGES - 1, SLICE = 16 };
 
 /* What is enough to end before a budget that nobody gave is spent: so many descents from random points to the
  * best, and so little of the box that is expected to lead to minima which none of them has seen. */
-enum { ENOUGH = 10, LEADERS = 8, BLIND_ROOM = 512 };
+enum { ENOUGH = 10, BLIND_ROOM = 512 };
 static const double little = 0.01;
 
 typedef struct member {
@@ -249,36 +249,30 @@ static bool enough(const portfolio *p)
            !memcmp(best->u, p->refined.u, (size_t)session->n * sizeof(double));
 }
 
-/* For the last polish, which takes the first of them: the best of all, then the best ends of independent descents,
- * which a flat optimum may have crowded out, then the rest. */
+/* The archive goes on to the last polish. Behind it stand the ends of independent descents that it had no room for,
+ * as where a flat optimum has filled it: they tell how often, not where. */
 static ves_status hand_over(portfolio *p)
 {
     ves_session *session = p->session;
     ves_archive *archive = &p->team.archive, *blind = &p->team.blind;
-    int first = archive->count < LEADERS ? archive->count : LEADERS, others = 0, count = 0;
     ves_end *end = ves_arena_take(&session->arena, (size_t)(archive->count + blind->count), sizeof *end);
-    ves_end **other = ves_arena_take(&session->arena, (size_t)blind->count, sizeof *other);
-    if (!end || !other) return VES_MEMORY;
+    if (!end) return VES_MEMORY;
+    session->rest = end + archive->count;
+    session->rests = 0;
     for (int k = 0; k < blind->count; k++) {
         int at = ves_archive_find(archive, &blind->end[k].point);
         blind->end[k].blind = blind->end[k].hits;
         if (at >= 0)
             archive->end[at].blind += blind->end[k].hits;
-        else if (blind->end[k].point.proved || ves_session_costs(session, &blind->end[k].point))
-            other[others++] = &blind->end[k]; /* not those that were refused */
+        else
+            session->rest[session->rests++] = blind->end[k];
     }
-    const int some = others < LEADERS ? others : LEADERS;
-    for (int k = 0; k < first; k++) end[count++] = archive->end[k];
-    for (int k = 0; k < some; k++) end[count++] = *other[k];
-    for (int k = first; k < archive->count; k++) end[count++] = archive->end[k];
-    session->rest = end + count;
-    session->rests = others - some;
-    for (int k = some; k < others; k++) session->rest[k - some] = *other[k];
+    for (int k = 0; k < archive->count; k++) end[k] = archive->end[k];
     session->blind = blind->met;
     session->kinds = blind->kinds;
-    if (!count) return VES_OK; /* all were refused: what the stage began with stays */
+    if (!archive->count) return VES_OK; /* all were refused: what the stage began with stays */
     session->end = end;
-    session->ends = count;
+    session->ends = archive->count;
     return VES_OK;
 }
 

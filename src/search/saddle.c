@@ -374,6 +374,33 @@ ves_status ves_saddle_check(ves_saddle *s, ves_descent *d, const ves_point *poin
     return VES_OK;
 }
 
+static double row_size(const ves_saddle *s, const ves_descent *d, int j)
+{
+    const int n = d->session->n;
+    double size = 0;
+    for (int i = 0; i < n; i++) {
+        double g = s->touching[j * n + i] * d->range[i];
+        size += g * g;
+    }
+    return sqrt(size);
+}
+
+/* What a step violates of the inequalities that touch the base without a multiplier, as dear as the dearest that has
+ * one: where their slopes depend on each other the multipliers could as well be theirs. */
+static double trespass(const ves_saddle *s, const ves_descent *d)
+{
+    double dearest = 0, sum = 0;
+    for (int k = 0; k < s->active; k++)
+        dearest = fmax(dearest, fabs(s->multiplier[s->row[k]]) * row_size(s, d, s->row[k]));
+    for (int k = 0; k < s->near; k++) {
+        int j = s->touched[k];
+        double excess = d->last.constraint[j], size = row_size(s, d, j);
+        bool free_of_it = s->multiplier[j] == 0 && !ves_session_equality(d->session, j);
+        if (free_of_it && excess > 0 && size > 0) sum += dearest / size * excess;
+    }
+    return sum;
+}
+
 /* The lowest of some steps, if it goes down at least a tenth of what the curvature promises: L + lowest t^2
  * / 2. */
 static ves_status walk(ves_saddle *s, ves_descent *d, double sign, ves_point *side, bool *found)
@@ -387,7 +414,8 @@ static ves_status walk(ves_saddle *s, ves_descent *d, double sign, ves_point *si
         }
         VES_TRY(ves_descent_look(d, s->trial, false));
         if (d->last.status != VES_OK) continue;
-        double fall = s->lagrangian - lagrangian(s, d), promised = -0.5 * s->lowest * length[k] * length[k];
+        double fall = s->lagrangian - lagrangian(s, d) - trespass(s, d),
+               promised = -0.5 * s->lowest * length[k] * length[k];
         if (fall < 0.1 * promised || -fall >= best) continue;
         best = -fall;
         ves_descent_keep(d, side);
