@@ -259,6 +259,7 @@ Test(study, the_trace_has_a_line_for_each_evaluation)
     trial t =
         run_with(BOTTLE "search: [{anneal: {}}, {polish: {}}]\n", &options, NULL); /* candidates are cut */
     char *text = slurp(place("traced/trace.jsonl"), &length);
+    cr_expect(t.run->temperatures > 0);
     long lines = 0, failed = 0, cut = 0;
     double best = 0;
     for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n"), lines++) {
