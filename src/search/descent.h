@@ -90,6 +90,9 @@ const char *ves_descent_sentence(const ves_descent *descent);
  * VES_INTERRUPTED also when the budget is spent; VES_NO_NUMBER for a u that is none: nothing was asked. */
 ves_status ves_descent_look(ves_descent *descent, const double *u, bool slopes);
 
+/* Evaluations that one quick descent may take: it has arrived long before, or is lost. */
+long ves_descent_usual(int n, bool slopes);
+
 /* The steepest slope of the value at what was last looked at, across the box; 0 without slopes. */
 double ves_descent_steepest(const ves_descent *descent);
 

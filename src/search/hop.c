@@ -57,13 +57,6 @@ typedef struct hop {
     falls fall[KERNELS];
 } hop;
 
-/* The most that one descent may take. */
-static long cap(const hop *h)
-{
-    long n = h->session->n;
-    return h->slopes ? 100 + 20 * n : 100 + 60 * n;
-}
-
 void *ves_hop_create(ves_team *team, uint32_t stream, bool slopes)
 {
     ves_session *session = team->session;
@@ -310,11 +303,11 @@ ves_status ves_hop_advance(void *state, long some, long most)
 {
     hop *h = state;
     ves_session *session = h->session;
-    const long before = session->evaluations;
+    const long before = session->evaluations, usual = ves_descent_usual(session->n, h->slopes);
     for (long used = 0; used < some && most - used >= ves_hop_least(h) && !ves_session_over(session);
          used = session->evaluations - before) {
         long each = (most - used) / (h->rounds ? WIDTH : 1);
-        VES_TRY(hop_round(h, each < cap(h) ? each : cap(h)));
+        VES_TRY(hop_round(h, each < usual ? each : usual));
     }
     return VES_OK;
 }

@@ -357,7 +357,8 @@ static ves_status look_round(portfolio *p)
         ves_team_take(&p->team, &l->best[k]);
         ves_asker_destroy(&l->asker[k]);
     }
-    double width = ves_spread(l->value, LOOKERS * l->looks);
+    int measured = LOOKERS * l->looks;
+    double width = ves_spread(l->value, &measured);
     double typical = ves_median_above(l->violation, LOOKERS * l->looks, session->tolerance);
     p->team.weight = 2 * (width > 0 ? width : 1) / (typical > 0 ? typical : session->usual);
     return status;

@@ -9,6 +9,11 @@ enum { STRIDES = 20, WINDOWS = 30 };
 
 static const double stride = 0.05, flatter = 0.3; /* of the box; of the slope before */
 
+long ves_descent_usual(int n, bool slopes)
+{
+    return 100 + (slopes ? 20 : 60) * (long)n;
+}
+
 /* Walks off a place where the slopes are of another size than everywhere else: scaled by them, no algorithm
  * would see the rest. Steps of a part of the box down the slope, as long as each leads to far less of it. */
 ves_status ves_descent_relax(ves_descent *d, ves_point *point)

@@ -15,9 +15,9 @@ static int sorted(double *value, int count)
     return kept;
 }
 
-double ves_spread(double *value, int count)
+double ves_spread(double *value, int *count)
 {
-    int kept = sorted(value, count);
+    int kept = *count = sorted(value, *count);
     if (!kept) return 0;
     double width = (value[kept / 2] - value[kept / 4]) / 0.6745;
     return width > 0 ? width : (value[kept - 1] - value[0]) / 4;

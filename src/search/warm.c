@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "search/anneal.h"
+#include "search/spread.h"
 
 /* The warm-up: a look at points all over the box, from which everything follows that has a scale. */
 
@@ -22,36 +23,6 @@ static void explore(void *data, int worker, int index)
     }
 }
 
-/* Sorts, leaving out what is not a number; returns how many are left. */
-static int sorted(double *value, int count)
-{
-    int kept = 0;
-    for (int k = 0; k < count; k++) {
-        double v = value[k];
-        if (isnan(v)) continue;
-        int j = kept++;
-        for (; j && value[j - 1] > v; j--) value[j] = value[j - 1];
-        value[j] = v;
-    }
-    return kept;
-}
-
-/* The spread below the median, as a standard deviation of a normal: the half that a minimiser will live in,
- * and deaf to the long upper tail of extreme shapes. */
-static double spread(const double *value, int kept)
-{
-    if (!kept) return 0;
-    double width = (value[kept / 2] - value[kept / 4]) / 0.6745;
-    return width > 0 ? width : (value[kept - 1] - value[0]) / 4;
-}
-
-static double median_violation(double *violation, int count, double tolerance)
-{
-    int kept = sorted(violation, count), first = 0;
-    while (first < kept && violation[first] <= tolerance) first++;
-    return first < kept ? violation[first + (kept - first) / 2] : 0;
-}
-
 /* How large violations of constraint j are: the middle one of those that were met. */
 static double size_of(ves_annealing *a, int j, int count, double typical)
 {
@@ -61,7 +32,7 @@ static double size_of(ves_annealing *a, int j, int count, double typical)
         double g = a->constraint[k * session->m + j];
         a->violation[k] = equal ? fabs(g) : g;
     }
-    double size = median_violation(a->violation, count, session->tolerance);
+    double size = ves_median_above(a->violation, count, session->tolerance);
     return size > 0 ? size : typical;
 }
 
@@ -85,7 +56,7 @@ static void place(ves_annealing *a, const ves_burden *burden, double margin)
 static void weigh(ves_annealing *a, int count, double width, ves_burden *burden)
 {
     ves_session *session = a->session;
-    double given = a->options.weight, typical = median_violation(a->violation, count, session->tolerance);
+    double given = a->options.weight, typical = ves_median_above(a->violation, count, session->tolerance);
     if (!(typical > 0)) typical = session->usual;
     burden->weight = given > 0 ? given : 2 * width / typical;
     burden->most = given > 0 ? given : 1e8 * burden->weight;
@@ -110,8 +81,8 @@ ves_status ves_annealing_warm(ves_annealing *a)
     ves_burden burden = {.worst = a->start[0].point.verdict.value, .stiffness = stiffness};
     if (session->m) burden.stiffness = ves_arena_take(&session->arena, (size_t)session->m, sizeof(double));
     if (!burden.stiffness) return VES_MEMORY;
-    int kept = sorted(a->value, count);
-    double width = spread(a->value, kept);
+    int kept = count;
+    double width = ves_spread(a->value, &kept);
     if (!(width > 0)) width = fmax(1e-3 * fabs(a->start[0].point.verdict.value), 1e-12);
     if (kept) burden.worst = fmax(burden.worst, a->value[kept - 1]);
     weigh(a, count, width, &burden);

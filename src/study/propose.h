@@ -16,6 +16,6 @@ typedef struct ves_elimination {
 /* At most one of each kind, maybe for the same equation: by scale, and by the variable that, from the start
  * design, runs through an equation's root and moves it most. list [2]. Negative only for faults. */
 ves_status ves_study_propose(ves_plan *plan, const ves_problem *problem, ves_arena *arena,
-                            ves_elimination *list, int *count);
+                             ves_elimination *list, int *count);
 
 #endif

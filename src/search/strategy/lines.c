@@ -234,8 +234,7 @@ static void descend(void *data, int worker, int index)
 
 static long descent_cost(const lines *l)
 {
-    long n = l->session->n;
-    return l->session->problem->gradients ? 100 + 20 * n : 100 + 60 * n;
+    return ves_descent_usual(l->session->n, l->session->problem->gradients);
 }
 
 static ves_status finish(lines *l, long left)

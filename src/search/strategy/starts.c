@@ -29,8 +29,7 @@ typedef struct starts {
 
 static long cap(const ves_session *session)
 {
-    long n = session->n;
-    return session->problem->gradients ? 200 + 40 * n : 200 + 120 * n;
+    return 2 * ves_descent_usual(session->n, session->problem->gradients);
 }
 
 static void *create(ves_team *team, uint32_t stream)
