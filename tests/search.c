@@ -26,24 +26,9 @@ Test(search, reflection_stays_in_the_box_and_has_period_two)
 
 /* ---- the annealer ---- */
 
-/* quadratic in n variables around 0.3, in the caller's units */
-static ves_status bowl(void *data, int worker, const ves_ask *ask, ves_verdict *v)
-{
-    const given *problem = data;
-    (void)worker;
-    double *g = gradient_of(ask, v);
-    v->value = 7;
-    for (int i = 0; i < problem->n; i++) {
-        double d = ask->x[i] - 0.3;
-        v->value += (1 + i) * d * d;
-        if (g) g[i] = 2 * (1 + i) * d;
-    }
-    return VES_OK;
-}
-
 static given problem_bowl(int n)
 {
-    given g = {.evaluate = bowl, .n = n};
+    given g = {.evaluate = quadratic, .n = n};
     for (int i = 0; i < n; i++) g.lower[i] = -8, g.upper[i] = 9, g.start[i] = 0.3;
     return g;
 }

@@ -82,6 +82,21 @@ static inline double *gradient_of(const ves_ask *ask, ves_verdict *verdict)
     return ask->want & VES_WANT_GRADIENT ? verdict->gradient : NULL;
 }
 
+/* n variables around 0.3, in the caller's units */
+static inline ves_status quadratic(void *data, int worker, const ves_ask *ask, ves_verdict *v)
+{
+    const given *problem = data;
+    (void)worker;
+    double *g = gradient_of(ask, v);
+    v->value = 7;
+    for (int i = 0; i < problem->n; i++) {
+        double d = ask->x[i] - 0.3;
+        v->value += (1 + i) * d * d;
+        if (g) g[i] = 2 * (1 + i) * d;
+    }
+    return VES_OK;
+}
+
 /* CEC 2006 g06: f* = -6961.81387558015; both constraints active, thin feasible sickle, multipliers of 1e5 */
 static inline ves_status g06(void *data, int worker, const ves_ask *ask, ves_verdict *v)
 {

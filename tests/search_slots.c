@@ -8,21 +8,6 @@
 
 #pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
 
-/* quadratic in n variables around 0.3 */
-static ves_status bowl(void *data, int worker, const ves_ask *ask, ves_verdict *v)
-{
-    const given *problem = data;
-    (void)worker;
-    double *g = gradient_of(ask, v);
-    v->value = 7;
-    for (int i = 0; i < problem->n; i++) {
-        double d = ask->x[i] - 0.3;
-        v->value += (1 + i) * d * d;
-        if (g) g[i] = 2 * (1 + i) * d;
-    }
-    return VES_OK;
-}
-
 static ves_status rastrigin(void *data, int worker, const ves_ask *ask, ves_verdict *v)
 {
     const given *problem = data;
@@ -496,7 +481,7 @@ static ves_health health_of(const given *g, const ves_anneal *anneal, const char
 
 Test(search_slots, health_tells_what_is_wrong)
 {
-    given easy = problem_of(bowl, 3, 5), hard = problem_of(rastrigin, 6, 5);
+    given easy = problem_of(quadratic, 3, 5), hard = problem_of(rastrigin, 6, 5);
     ves_anneal slow = {.evaluations = 40000}, fast = {.evaluations = 1500, .schedule = "book"},
                shorter = {.evaluations = 400, .s = 0.999}, fixed = {.evaluations = 4000, .schedule = "fixed"};
     cr_expect(eq(int, health_of(&easy, &slow, "frozen"), VES_HEALTH_FROZEN));
@@ -509,7 +494,7 @@ Test(search_slots, health_tells_what_is_wrong)
  * hundred times below c0, and the heat capacity is n / 2 everywhere. */
 Test(search_slots, freezing_is_where_the_mean_energy_stops_falling)
 {
-    given g = problem_of(bowl, 3, 100); /* so wide that it has no walls at c0 */
+    given g = problem_of(quadratic, 3, 100); /* so wide that it has no walls at c0 */
     for (int i = 0; i < 3; i++) g.start[i] = 1.3;
     g.data = &g;
     ves_search_options o = only_anneal(200000);

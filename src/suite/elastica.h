@@ -16,6 +16,9 @@ extern const double ves_elastica_place[VES_ELASTICA]; /* the best, of length 2 p
 extern const double ves_elastica_least;               /* its integral of curvature squared */
 extern const double ves_elastica_reduced;             /* 4 pi area / length^2 */
 
+/* The optimum of a landscape in these amplitudes. */
+double ves_elastica_optimum(int n, double *x);
+
 /* Trapezoidal sums over equal steps of t. */
 typedef struct ves_elastica {
     double bending, length, area;

@@ -4,12 +4,6 @@
 #include "base/vector.h"
 #include "suite/landscape.h"
 
-static double optimum(int n, double *x)
-{
-    for (int i = 0; i < n; i++) x[i] = ves_elastica_place[i];
-    return ves_elastica_least;
-}
-
 static ves_status eval(int n, const double *x, bool slopes, ves_verdict *out)
 {
     ves_elastica e;
@@ -33,6 +27,6 @@ const ves_landscape ves_landscape_elastica = {
     .most = VES_ELASTICA,
     .bounds = ves_elastica_bounds,
     .equalities = 2,
-    .optimum = optimum,
+    .optimum = ves_elastica_optimum,
     .eval = eval,
 };

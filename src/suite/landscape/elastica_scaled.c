@@ -4,12 +4,6 @@
 #include "suite/elastica.h"
 #include "suite/landscape.h"
 
-static double optimum(int n, double *x)
-{
-    for (int i = 0; i < n; i++) x[i] = ves_elastica_place[i];
-    return ves_elastica_least;
-}
-
 static ves_status eval(int n, const double *x, bool slopes, ves_verdict *out)
 {
     ves_elastica e;
@@ -27,6 +21,6 @@ const ves_landscape ves_landscape_elastica_scaled = {
     .most = VES_ELASTICA,
     .bounds = ves_elastica_bounds,
     .equalities = 1,
-    .optimum = optimum,
+    .optimum = ves_elastica_optimum,
     .eval = eval,
 };
