@@ -11,6 +11,7 @@
 
 #include "problem/problem.h"
 #include "problem/suite.h"
+#include "slurp.h"
 #include "surface/figure.h"
 #include "vesica/plan.h"
 
@@ -34,19 +35,6 @@ static int list_files(const char *folder, const char *ending, char *name[FILES])
     closedir(dir);
     qsort(name, (size_t)count, sizeof *name, by_name);
     return count;
-}
-
-static char *slurp(const char *path)
-{
-    FILE *in = fopen(path, "rb");
-    cr_assert(in != NULL, "cannot open %s", path);
-    fseek(in, 0, SEEK_END);
-    size_t size = (size_t)ftell(in);
-    rewind(in);
-    char *text = calloc(size + 1, 1);
-    cr_assert(fread(text, 1, size, in) == size);
-    fclose(in);
-    return text;
 }
 
 /* "12:3: error: ..." of message k; the name of the file and the excerpt are cut off; files do not name the

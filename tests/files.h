@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "slurp.h"
+
 /* A folder of this process, so that tests may run at the same time. */
 static inline const char *path_of(const char *name)
 {
@@ -27,21 +29,6 @@ static inline void clean(void)
     static const char *const names[] = {"a.stl", "a.obj", "a.ply", "a.off", "a.vtp", "a.csv",
                                         "a.png", "a.svg", "a.pdf", "b.png", "log",   ""};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) remove(path_of(names[k]));
-}
-
-/* Whole file, ended by 0; the caller frees. */
-static inline unsigned char *slurp(const char *path, size_t *size)
-{
-    FILE *in = fopen(path, "rb");
-    cr_assert(in != NULL, "cannot open %s", path);
-    fseek(in, 0, SEEK_END);
-    *size = (size_t)ftell(in);
-    rewind(in);
-    unsigned char *data = malloc(*size + 1);
-    cr_assert(fread(data, 1, *size, in) == *size);
-    data[*size] = 0;
-    fclose(in);
-    return data;
 }
 
 static inline void check_nothing_left(void)

@@ -31,7 +31,7 @@ static unsigned char *exported(ves_figure *figure, const char *format, size_t *s
     const char *path = path_of(name);
     cr_assert(eq(int, export(figure, format, path), VES_OK), "%s: %s", format, first_message);
     cr_assert(first_message[0] == 0, "%s: %s", format, first_message);
-    return slurp(path, size);
+    return (unsigned char *)slurp_bytes(path, size);
 }
 
 Test(output, formats_are_listed_sorted_and_found)
@@ -380,7 +380,7 @@ Test(output, a_full_disk_leaves_the_old_file_alone)
         setrlimit(RLIMIT_FSIZE, &old);
         cr_assert(eq(int, status, VES_IO), "%s", (*f)->name);
         cr_assert(strstr(first_message, strerror(EFBIG)) != NULL, "%s: %s", (*f)->name, first_message);
-        char *data = (char *)slurp(path, &size);
+        char *data = slurp_bytes(path, &size);
         cr_assert(eq(str, data, "old"), "%s", (*f)->name);
         free(data);
         remove(path);

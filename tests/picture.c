@@ -37,7 +37,7 @@ Test(picture, pictures_have_the_size_asked_for)
         ves_view view = ves_view_default();
         view.width = sizes[k][0], view.height = sizes[k][1], view.orthographic = k == 1;
         cr_assert(eq(int, picture(&figure, &view, path_of("a.png")), VES_OK), "%s", first_message);
-        unsigned char *data = slurp(path_of("a.png"), &size);
+        unsigned char *data = (unsigned char *)slurp_bytes(path_of("a.png"), &size);
         cr_assert(memcmp(data, "\x89PNG\r\n\x1a\n", 8) == 0 && !memcmp(data + 12, "IHDR", 4));
         unsigned w = big_endian(data + 16), h = big_endian(data + 20);
         cr_assert(w == (k ? (unsigned)sizes[k][0] : 960) && h == (k ? (unsigned)sizes[k][1] : 720), "%u x %u",
@@ -64,13 +64,13 @@ Test(picture, vector_pictures_are_written_and_repeat)
         cr_assert(eq(int, picture(&figure, &view, path_of("a.pdf")), VES_OK), "%s", first_message);
         cr_assert(eq(int, picture(&figure, &view, path_of("a.png")), VES_OK), "%s", first_message);
         cr_assert(eq(int, picture(&figure, &view, path_of("b.png")), VES_OK), "%s", first_message);
-        char *svg = (char *)slurp(path_of("a.svg"), &size);
+        char *svg = slurp_bytes(path_of("a.svg"), &size);
         cr_assert(strstr(svg, "<svg") && strstr(svg, "</svg>") && strstr(svg, "400") && strstr(svg, "300"));
         free(svg);
-        char *pdf = (char *)slurp(path_of("a.pdf"), &size);
+        char *pdf = slurp_bytes(path_of("a.pdf"), &size);
         cr_assert(memcmp(pdf, "%PDF-", 5) == 0 && !memcmp(pdf + size - 6, "%%EOF\n", 6));
         free(pdf);
-        unsigned char *one = slurp(path_of("a.png"), &size), *two = slurp(path_of("b.png"), &again);
+        char *one = slurp_bytes(path_of("a.png"), &size), *two = slurp_bytes(path_of("b.png"), &again);
         cr_assert(size == again && !memcmp(one, two, size), "%s: the same picture twice", colours[k]);
         free(one);
         free(two);

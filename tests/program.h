@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "problem/tree.h"
+#include "slurp.h"
 
 #define PROBLEMS VESICA_SOURCE "/problems/"
 
@@ -55,20 +56,6 @@ typedef struct outcome {
     int code;
     char *out, *err;
 } outcome;
-
-static inline char *slurp(const char *path)
-{
-    FILE *in = fopen(path, "rb");
-    cr_assert(in != NULL, "cannot open %s", path);
-    fseek(in, 0, SEEK_END);
-    long length = ftell(in);
-    rewind(in);
-    char *text = malloc((size_t)length + 1);
-    cr_assert(fread(text, 1, (size_t)length, in) == (size_t)length);
-    text[length] = 0;
-    fclose(in);
-    return text;
-}
 
 static inline void become(const char *words, const char *in, const char *out)
 {

@@ -62,7 +62,7 @@ static char *written(ves_figure *figure, const char *format, ves_diag *diag)
     size_t size;
     snprintf(name, sizeof name, "a.%s", format);
     cr_assert_eq(ves_format_find(format)->spines(figure, path_of(name), diag), VES_OK);
-    char *text = (char *)slurp(path_of(name), &size);
+    char *text = slurp_bytes(path_of(name), &size);
     clean();
     return text;
 }

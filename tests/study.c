@@ -17,6 +17,7 @@
 
 #include "fonts.h"
 #include "problem/tree.h"
+#include "slurp.h"
 #include "study/folder.h"
 #include "study/open.h"
 #include "study/run.h"
@@ -49,27 +50,13 @@ static const char *place(const char *name)
     return path[turn];
 }
 
-static char *slurp(const char *path, size_t *length)
-{
-    FILE *in = fopen(path, "rb");
-    cr_assert(in != NULL, "cannot open %s", path);
-    fseek(in, 0, SEEK_END);
-    *length = (size_t)ftell(in);
-    rewind(in);
-    char *text = malloc(*length + 1);
-    cr_assert(fread(text, 1, *length, in) == *length);
-    text[*length] = 0;
-    fclose(in);
-    return text;
-}
-
 static bool same_file(const char *folder_a, const char *folder_b, const char *name)
 {
     char path[2][900];
     size_t length[2];
     snprintf(path[0], sizeof path[0], "%s/%s", folder_a, name);
     snprintf(path[1], sizeof path[1], "%s/%s", folder_b, name);
-    char *text[2] = {slurp(path[0], &length[0]), slurp(path[1], &length[1])};
+    char *text[2] = {slurp_bytes(path[0], &length[0]), slurp_bytes(path[1], &length[1])};
     bool same = length[0] == length[1] && !memcmp(text[0], text[1], length[0]);
     free(text[0]);
     free(text[1]);
@@ -181,7 +168,7 @@ static const ves_node *json_read(const char *folder, const char *name, ves_arena
     char path[900];
     size_t length;
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    char *text = slurp(path, &length);
+    char *text = slurp_bytes(path, &length);
     const char *kept = ves_arena_text(arena, text, length);
     const ves_node *node = NULL;
     ves_script *script = ves_arena_take(arena, 1, sizeof *script);
@@ -258,7 +245,7 @@ Test(study, the_trace_has_a_line_for_each_evaluation)
         .evaluations = 500, .jobs = 2, .files = true, .trace = VES_TRACE_ALL, .out = place("traced")};
     trial t =
         run_with(BOTTLE "search: [{anneal: {}}, {polish: {}}]\n", &options, NULL); /* candidates are cut */
-    char *text = slurp(place("traced/trace.jsonl"), &length);
+    char *text = slurp_bytes(place("traced/trace.jsonl"), &length);
     cr_expect(t.run->temperatures > 0);
     long lines = 0, failed = 0, cut = 0;
     double best = 0;

@@ -40,7 +40,7 @@ static void read_problem(const trial *t, ves_problem **problem, ves_diag *diag)
 }
 
 /* One run, and what it wrote. */
-static void run(const trial *t, int jobs, unsigned char *text[SAME], size_t length[SAME])
+static void run(const trial *t, int jobs, char *text[SAME], size_t length[SAME])
 {
     char folder[512], path[600];
     ves_problem *problem;
@@ -55,7 +55,7 @@ static void run(const trial *t, int jobs, unsigned char *text[SAME], size_t leng
     cr_assert(r->refused >= t->proofs, "%s: %ld proofs refused", t->name, r->refused);
     for (int k = 0; k < ALL; k++) {
         snprintf(path, sizeof path, "%s/%s", folder, FILES[k]);
-        if (k < SAME) text[k] = slurp(path, &length[k]);
+        if (k < SAME) text[k] = slurp_bytes(path, &length[k]);
         remove(path);
     }
     cr_assert_eq(rmdir(folder), 0, "something was left in %s", folder);
@@ -67,7 +67,7 @@ static void run(const trial *t, int jobs, unsigned char *text[SAME], size_t leng
 static void same(const trial *t)
 {
     static const int jobs[] = {1, 1, 2};
-    unsigned char *first[SAME], *again[SAME];
+    char *first[SAME], *again[SAME];
     size_t size[SAME], length[SAME];
     for (int k = 0; k < 3; k++) {
         run(t, jobs[k], k ? again : first, k ? length : size);

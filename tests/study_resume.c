@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "fonts.h"
+#include "slurp.h"
 #include "study/entries.h"
 #include "study/lock.h"
 #include "study/run.h"
@@ -49,20 +50,6 @@ static const char *place(const char *folder, const char *name)
     turn = (turn + 1) % 8;
     snprintf(path[turn], sizeof path[turn], "%s/%s%s%s", root, folder, *name ? "/" : "", name);
     return path[turn];
-}
-
-static char *slurp(const char *path, size_t *size)
-{
-    FILE *in = fopen(path, "rb");
-    cr_assert(in != NULL, "cannot open %s", path);
-    fseek(in, 0, SEEK_END);
-    *size = (size_t)ftell(in);
-    rewind(in);
-    char *text = malloc(*size + 1);
-    cr_assert(fread(text, 1, *size, in) == *size);
-    text[*size] = 0;
-    fclose(in);
-    return text;
 }
 
 static void spill(const char *path, const char *text, size_t size)
@@ -137,7 +124,7 @@ static int said(const ves_diag *diag, const char *words)
 static void same(const char *a, const char *b, const char *name, const char *what)
 {
     size_t size[2];
-    char *text[2] = {slurp(place(a, name), &size[0]), slurp(place(b, name), &size[1])};
+    char *text[2] = {slurp_bytes(place(a, name), &size[0]), slurp_bytes(place(b, name), &size[1])};
     cr_expect(size[0] == size[1] && !memcmp(text[0], text[1], size[0]), "%s: %s differs (%zu, %zu bytes)",
               what, name, size[0], size[1]);
     free(text[0]);
@@ -159,7 +146,7 @@ static void killed(const char *whole, const char *folder, size_t size)
     size_t all;
     cr_assert(mkdir(place(folder, ""), 0777) == 0);
     for (int k = 0; k < 3; k++) {
-        char *text = slurp(place(whole, names[k]), &all);
+        char *text = slurp_bytes(place(whole, names[k]), &all);
         size_t left = k == 0 ? size : k == 1 ? (size_t)((double)all * 0.9 * (double)size / 2e5) : all;
         spill(place(folder, names[k]), text, left < all ? left : all);
         free(text);
@@ -242,7 +229,7 @@ Test(study_resume, a_journal_may_end_at_any_byte, .timeout = 300)
     int count = 0;
     root_make();
     begin("whole", 1);
-    char *text = slurp(place("whole", "journal"), &all);
+    char *text = slurp_bytes(place("whole", "journal"), &all);
     cr_assert(ves_journal_open(place("whole", "journal"), &arena, &head, &frames, NULL) == VES_OK);
     for (end[0] = frames.at; ves_frames_next(&frames) && frames.frame.kind == VES_JOURNAL_WHOLE; count++) {
         block[count].size = frames.frame.size;
@@ -268,7 +255,7 @@ Test(study_resume, a_journal_may_end_at_any_byte, .timeout = 300)
             ves_journal_keep(&j, block[k].bytes, block[k].size, true, block[k].stages);
         cr_expect(j.stale == false && j.error == 0);
         ves_journal_end(&j, true);
-        char *again = slurp(place("cut", "journal"), &size);
+        char *again = slurp_bytes(place("cut", "journal"), &size);
         wrong += size != all || memcmp(again, text, all) != 0;
         free(again);
         ves_arena_destroy(&scratch);
@@ -290,7 +277,7 @@ Test(study_resume, what_is_damaged_is_asked_again)
         int frame = k * (count - 2) / 5;
         size_t size;
         killed("whole", "cut", end[count - 1]);
-        char *text = slurp(place("cut", "journal"), &size);
+        char *text = slurp_bytes(place("cut", "journal"), &size);
         text[end[frame] + (size_t)k * 5] ^= (char)(1 << k);
         spill(place("cut", "journal"), text, size);
         free(text);
@@ -349,12 +336,12 @@ Test(study_resume, a_run_that_is_done_is_only_gone_through)
     begin("whole", 1);
     size_t size, later;
     struct stat before, after;
-    char *times = slurp(place("whole", "times.json"), &size);
+    char *times = slurp_bytes(place("whole", "times.json"), &size);
     stat(place("whole", "journal"), &before);
     trial t = resume("whole", 2);
     cr_assert(t.status == VES_OK && t.run->over && t.run->recalled == t.run->evaluations);
     cr_expect(t.run->any && t.run->feasible && t.run->ending != VES_ENDED_STOPPED);
-    char *again = slurp(place("whole", "times.json"), &later);
+    char *again = slurp_bytes(place("whole", "times.json"), &later);
     cr_expect(size == later && !memcmp(times, again, size));
     stat(place("whole", "journal"), &after);
     cr_expect(before.st_mtim.tv_sec == after.st_mtim.tv_sec &&
@@ -363,11 +350,11 @@ Test(study_resume, a_run_that_is_done_is_only_gone_through)
     free(again);
     finish(&t);
     /* unless its result is gone */
-    char *want = slurp(place("whole", "result.json"), &size);
+    char *want = slurp_bytes(place("whole", "result.json"), &size);
     remove(place("whole", "result.json"));
     t = resume("whole", 1);
     cr_assert(t.status == VES_OK && !t.run->over);
-    char *got = slurp(place("whole", "result.json"), &later);
+    char *got = slurp_bytes(place("whole", "result.json"), &later);
     cr_expect(size == later && !memcmp(want, got, size));
     free(want);
     free(got);
@@ -380,14 +367,14 @@ Test(study_resume, a_run_that_is_done_is_only_gone_through)
 static void refused(const char *text, uint64_t seed, const char *words)
 {
     size_t size, later;
-    char *before = slurp(place("whole", "journal"), &size);
+    char *before = slurp_bytes(place("whole", "journal"), &size);
     ves_run_options options = options_of("whole", 1);
     options.resume = true;
     options.seed = seed;
     trial t = run_text(text, &options, NULL);
     cr_expect(t.status == VES_STALE && t.run == NULL, "%s", words);
     cr_expect(said(t.diag, words) == 1, "not said: %s", words);
-    char *after = slurp(place("whole", "journal"), &later);
+    char *after = slurp_bytes(place("whole", "journal"), &later);
     cr_expect(size == later && !memcmp(before, after, size), "the journal was touched");
     finish(&t);
     free(before);
@@ -525,7 +512,7 @@ Test(study_resume, a_journal_tells_what_a_trace_of_all_tells)
     ves_entries entries;
     ves_entry e;
     size_t size;
-    char *text = slurp(place("whole", "trace.jsonl"), &size), *line = text;
+    char *text = slurp_bytes(place("whole", "trace.jsonl"), &size), *line = text;
     cr_assert(ves_entries_open(&entries, place("whole", ""), &arena, NULL) == VES_OK);
     cr_assert(entries.n == 1 && entries.m == 1 && !strcmp(entries.variable[0], "R"));
     cr_expect(eq(str, (char *)entries.constraint[0], "hh >= 3"));

@@ -99,7 +99,7 @@ Test(study_units, a_violation_is_that_of_a_design_everywhere)
             for (int o = 0; o < t.run->optima; o++)
                 same(t.run->optimum[o].violation, violation_of(&t, t.run->optimum[o].x), "an optimum");
             snprintf(path, sizeof path, "%s/trace.jsonl", folder);
-            char *trace = (char *)slurp(path, &length);
+            char *trace = slurp_bytes(path, &length);
             for (char *line = strtok(trace, "\n"); line; line = strtok(NULL, "\n"), lines++) {
                 double x[2], value, violation;
                 cr_assert(sscanf(strstr(line, "\"x\":"), "\"x\":[%lf,%lf]", &x[0], &x[1]) == 2, "%s", line);
@@ -156,7 +156,7 @@ Test(study_units, files_name_a_failure_and_keep_every_seed)
         (ves_run_options){
             .evaluations = 500, .jobs = 1, .seeded = true, .seed = UINT64_MAX, .files = true, .out = folder});
     snprintf(path, sizeof path, "%s/result.json", folder);
-    char *json = (char *)slurp(path, &length);
+    char *json = slurp_bytes(path, &length);
     cr_expect(strstr(json, "\"OUTSIDE\": ") != NULL);
     cr_expect(strstr(json, "\"seed\": 18446744073709551615") != NULL);
     cr_expect(strstr(json, "\"refused\": ") != NULL);

@@ -32,7 +32,7 @@ static long trace_lines(ves_trace which, long candidates, long *bests)
         ves_tracer_write(&tracer, &record);
     }
     cr_assert(ves_tracer_end(&tracer) == VES_OK);
-    char *text = (char *)slurp(path, &size), want[80];
+    char *text = slurp_bytes(path, &size), want[80];
     for (size_t k = 0; k < size; k++) lines += text[k] == '\n';
     snprintf(want, sizeof want, "\"value\":%.15g,", best);
     cr_assert(which == VES_TRACE_ACCEPTED || strstr(text, want) != NULL, "the best is missing: %s", want);

@@ -53,7 +53,7 @@ const ves_entry *ves_schema_find(const ves_entry *table, const char *name);
 /* Texts made from the tables, in the arena; NULL when out of memory. plugin: NULL-terminated extra measures,
  * or NULL. */
 char *ves_schema_json(ves_arena *arena, const ves_measure *const *plugin); /* JSON Schema, draft 07 */
-char *ves_schema_suite_json(ves_arena *arena); /* of suite files */
+char *ves_schema_suite_json(ves_arena *arena);                             /* of suite files */
 char *ves_schema_reference(ves_arena *arena,
                            const ves_measure *const *plugin); /* the manual's reference chapter, Markdown */
 
