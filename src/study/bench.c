@@ -93,9 +93,11 @@ static ves_status fight(bench *b, int worker, int index, ves_arena *arena, ves_o
                            .stopped = stopped,
                            .data = b};
     ves_status status = ves_meter_begin(&meter) ? VES_OK : VES_MEMORY;
-    double begin = ves_study_clock();
+    double begin = ves_study_clock(), cpu = ves_study_thread_clock();
     if (status == VES_OK) status = ves_contest_run(&contest);
     outcome->wall = ves_study_clock() - begin;
+    bool inside = contest.entrant->kind != VES_ENTRANT_PROGRAM;
+    outcome->cpu = inside ? ves_study_thread_clock() - cpu : NAN;
     if (status == VES_OK) status = outcome_take(&contest, outcome);
     ves_meter_end(&meter);
     return status;

@@ -55,6 +55,7 @@ static void times_write(FILE *out, int index, const ves_outcome *o)
     ves_json_integer(&json, "run", index);
     ves_json_number(&json, "wall_s", o->wall);
     ves_json_number(&json, "inside_s", o->inside);
+    ves_json_number(&json, "cpu_s", o->cpu);
     ves_json_end(&json, '}');
 }
 
@@ -284,7 +285,7 @@ static bool run_read(const ves_node *line, const ves_suite *suite, int index, ve
     o->starts = (int)number_of(line, "starts");
     o->value = o->any ? number_of(line, "value") : HUGE_VAL;
     o->violation = o->any ? number_of(line, "violation") : HUGE_VAL;
-    o->wall = o->inside = NAN;
+    o->wall = o->inside = o->cpu = NAN;
     return isfinite(o->spent) && isfinite(o->budget);
 }
 
@@ -349,8 +350,11 @@ static size_t times_read(const char *text, ves_outcome *outcome, int count)
         size_t length = strcspn(at, "\n");
         ves_arena arena = {0};
         const ves_node *line = at[length] ? ves_study_json(at, length, &arena) : NULL;
-        if (line)
-            outcome[k].wall = number_of(line, "wall_s"), outcome[k].inside = number_of(line, "inside_s");
+        if (line) {
+            outcome[k].wall = number_of(line, "wall_s");
+            outcome[k].inside = number_of(line, "inside_s");
+            outcome[k].cpu = number_of(line, "cpu_s");
+        }
         ves_arena_destroy(&arena);
         if (!line) break;
         at += length + 1;

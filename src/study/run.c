@@ -45,6 +45,11 @@ double ves_study_clock(void)
     return seconds(CLOCK_MONOTONIC);
 }
 
+double ves_study_thread_clock(void)
+{
+    return seconds(CLOCK_THREAD_CPUTIME_ID);
+}
+
 /* --- making ready --- */
 
 static int machine_threads(void)

@@ -14,4 +14,7 @@ typedef struct ves_run_box {
 /* Seconds of a clock that only goes forward. */
 double ves_study_clock(void);
 
+/* Seconds that the processor has worked for this thread. */
+double ves_study_thread_clock(void);
+
 #endif

@@ -23,3 +23,9 @@ double ves_outcome_value(const ves_outcome *outcome, double cost)
         if (outcome->step[k].violation <= 1) best = outcome->step[k].value;
     return best;
 }
+
+double ves_outcome_own(const ves_outcome *outcome)
+{
+    bool shared = outcome->cpu < outcome->wall; /* false for NAN */
+    return (outcome->wall - outcome->inside) * (shared ? outcome->cpu / outcome->wall : 1);
+}

@@ -19,6 +19,7 @@ typedef struct ves_outcome {
     int steps;
     ves_step *step;      /* its improvements */
     double wall, inside; /* s: of the run, and of it in the problem; NAN: not known */
+    double cpu;          /* s of its thread's processor; NAN: not known, or the method is another process */
 } ves_outcome;
 
 void ves_outcome_clear(ves_outcome *outcome); /* frees what it holds */
@@ -28,5 +29,9 @@ double ves_outcome_reach(const ves_outcome *outcome, double value);
 
 /* The best feasible value known after `cost`; INFINITY: none. */
 double ves_outcome_value(const ves_outcome *outcome, double cost);
+
+/* s outside the problem. A machine that has other work too interrupts a run wherever it is: the time of the
+ * processor, where it is known, is shared out in the proportion of the clock's. */
+double ves_outcome_own(const ves_outcome *outcome);
 
 #endif

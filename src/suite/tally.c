@@ -88,7 +88,7 @@ static void score_ends(const bundle *b, space *room, ves_score *score)
         score->failed += o->failed;
         if (*o->reason && !score->reason) score->reason = o->reason;
         if (o->any && !(o->violation <= score->worst)) score->worst = o->violation;
-        own += o->wall - o->inside;
+        own += ves_outcome_own(o);
         evaluations += (double)o->evaluations;
     }
     score->runs = n;
