@@ -51,7 +51,7 @@ typedef struct ves_search_problem {
 } ves_search_problem;
 
 /* The annealer: one Metropolis loop [Ugail 2011, 7.3-7.4] and five slots, each filled by the name of a choice that
- * ves_search_choice tells. 0 (NULL, false) is the default of everything: = {0} is a whole annealing. docs/search.md
+ * ves_search_choice tells. 0 (NULL, false) is the default of everything: = {0} is a whole annealing. docs/methods
  * says what each choice is for. */
 typedef struct ves_anneal {
     const char
