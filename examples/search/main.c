@@ -1,65 +1,114 @@
-/* The search library by itself: which closed can of 330 ml takes the least sheet?
+/* The search library by itself: where does a shallow arch come to rest?
  *
- * Two variables, radius r and height h in cm; the area 2 pi r (r + h) is minimised while the volume pi r^2 h
- * is held at 330 cm^3. By hand: h = 2 r = 7.49 cm, 264.4 cm^2. */
+ *            o  apex (x, y), 20 N downwards
+ *         /     \                        Two springs of 1000 N/m, at rest with the apex at (0, 0.5), hold it
+ *    ____/_______\____                   between feet at (-1, 0) and (1, 0).
+ *           ===                          A stop at y = -0.4.
+ *
+ * It rests where its energy is least: above the feet or, snapped through, on the stop. The stop then pushes with
+ * 20 + 2000 (rest / length - 1) 0.4 = 50.455 N, by hand. That is the multiplier of the constraint: what the least
+ * energy would gain for each metre that the stop is lowered.
+ *
+ * It is searched three times: with gradients, by values alone, and by stages of our own choice. */
+#include <math.h>
 #include <stdio.h>
 
 #include <vesica/search.h>
 
-static const double pi = 3.14159265358979323846;
+/* What evaluate() needs to know. Several threads call it at once: they only read this. What a candidate writes needs
+ * a place for each `worker`. */
+typedef struct arch {
+    double stiffness, load; /* N/m, N */
+    double rest, stop;      /* m */
+} arch;
 
-/* Judges one candidate. A constraint is scaled: its value is a part of what is asked for, so that 1e-6 is a
- * millionth of 330 ml. verdict->violation may be left alone: the search then takes the largest of the
- * constraints. */
+/* Judges one candidate: the value to be minimised, each constraint (<= 0 where it holds; one that is declared as an
+ * equality == 0) and, when wanted, the derivatives of all of them. A constraint is violated by as much as it is
+ * positive, and up to 1e-6 counts as nothing: scale it so that this suits you. verdict->violation may be left alone.
+ * A candidate that cannot be judged returns a positive status, say VES_NO_NUMBER; the search goes on. */
 static ves_status evaluate(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
 {
-    const double volume =
-        *(const double *)data; /* the same for all threads; what is written needs one place for each worker */
+    const arch *a = data;
+    const double x = ask->x[0], y = ask->x[1];
+    double energy = a->load * y, along_x = 0, along_y = a->load;
     (void)worker;
-    double r = ask->x[0], h = ask->x[1];
-    verdict->value = 2 * pi * r * (r + h);
-    verdict->constraint[0] = pi * r * r * h / volume - 1;
-    if (ask->want & VES_WANT_GRADIENT) {
-        verdict->gradient[0] = 2 * pi * (2 * r + h);
-        verdict->gradient[1] = 2 * pi * r;
-        verdict->jacobian[0] = 2 * pi * r * h / volume; /* row = constraint, column = variable */
-        verdict->jacobian[1] = pi * r * r / volume;
+    for (int side = -1; side <= 1; side += 2) {
+        double length = hypot(x - side, y), stretch = length - a->rest;
+        energy += 0.5 * a->stiffness * stretch * stretch;
+        along_x += a->stiffness * stretch * (x - side) / length;
+        along_y += a->stiffness * stretch * y / length;
     }
-    return VES_OK; /* a candidate that cannot be judged: a positive status, say VES_DEGENERATE */
+    verdict->value = energy;
+    verdict->constraint[0] = a->stop - y;
+    if (ask->want & VES_WANT_GRADIENT) {
+        verdict->gradient[0] = along_x;
+        verdict->gradient[1] = along_y;
+        verdict->jacobian[0] = 0; /* row k: constraint k, column i: variable i */
+        verdict->jacobian[1] = -1;
+    }
+    return VES_OK;
+}
+
+/* Without the sign of a zero that is not quite one. */
+static double tidy(double value)
+{
+    return fabs(value) < 5e-7 ? 0 : value;
+}
+
+static void tell(const ves_search_result *r)
+{
+    printf("  best       %.6f J at x = %.6f, y = %.6f%s\n", r->value, tidy(r->x[0]), r->x[1],
+           r->feasible ? "" : ", which is not feasible");
+    printf("  verdict    %s\n", r->evidence.sentence);
+    if (r->kkt.known) printf("  stop       pushes with %.3f N\n", r->kkt.multiplier[0]);
+    for (int k = 0; k < r->optima; k++)
+        printf("  optimum %d  %.6f J at x = %.6f, y = %.6f, found %d times\n", k + 1, r->optimum[k].value,
+               tidy(r->optimum[k].x[0]), r->optimum[k].x[1], r->optimum[k].hits);
+    for (int k = 0; k < r->notes; k++) printf("  note       %s\n", r->note[k]);
+    printf("  cost       %ld evaluations, %ld of them with gradients\n", r->evaluations, r->gradients);
+}
+
+/* Returns whether a feasible best was found. */
+static bool search(const char *title, const ves_search_problem *problem, const ves_search_options *options)
+{
+    ves_search_result *result;
+    ves_status status = ves_search_run(problem, options, NULL, &result);
+    printf("%s\n", title);
+    if (status != VES_OK) {
+        printf("  %s\n", ves_status_text(status));
+        return false;
+    }
+    tell(result);
+    bool feasible = result->feasible;
+    ves_search_result_destroy(result);
+    return feasible;
 }
 
 int main(void)
 {
-    double volume = 330;
-    const double lower[] = {1, 1}, upper[] = {20, 40}, start[] = {2, 30};
-    const bool equality[] = {true};
-    const char *const name[] = {"r", "h"};
+    arch a = {.stiffness = 1000, .load = 20, .rest = hypot(1, 0.5), .stop = -0.4};
+    const double lower[] = {-0.5, -1}, upper[] = {0.5, 1}, start[] = {0.1, 0.5};
+    const char *const name[] = {"x", "y"};
     ves_search_problem problem = {.n = 2,
-                                  .m = 1,
+                                  .m = 1, /* an inequality: .equality tells others */
                                   .lower = lower,
                                   .upper = upper,
                                   .start = start,
-                                  .equality = equality,
+                                  .name = name,
                                   .gradients = true,
-                                  .workers = 2,
+                                  .workers = 2, /* the result is the same for any number */
                                   .evaluate = evaluate,
-                                  .data = &volume,
-                                  .name = name};
-    ves_search_options options = ves_search_options_default(); /* anneal, then polish */
-    options.seed = 7;
+                                  .data = &a};
+    ves_search_options options = ves_search_options_default();
+    options.seed = 7; /* same seed, same result */
+    bool good = search("with gradients", &problem, &options);
 
-    ves_search_result *result;
-    ves_status status = ves_search_run(&problem, &options, NULL, &result);
-    if (status != VES_OK) {
-        fprintf(stderr, "%s\n", ves_status_text(status));
-        return 1;
-    }
-    printf("r = %.6f cm, h = %.6f cm, area = %.6f cm^2\n", result->x[0], result->x[1], result->value);
-    printf("volume off by %.1e, %ld evaluations, %ld of them with gradients\n", result->violation,
-           result->evaluations, result->gradients);
-    printf("%s\n", result->stop);
-    for (int k = 0; k < result->notes; k++) printf("note: %s\n", result->note[k]);
-    int code = result->feasible ? 0 : 1;
-    ves_search_result_destroy(result);
-    return code;
+    problem.gradients = false;
+    good = search("by values alone", &problem, &options) && good;
+
+    options.stages = 2; /* instead of the portfolio; docs/methods tells what there is */
+    options.stage[0] = (ves_stage){.kind = VES_STAGE_ANNEAL, .anneal = {.evaluations = 2000, .chains = 8}};
+    options.stage[1] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = {.algorithm = "cobyla"}};
+    good = search("annealing by eight chains, then cobyla", &problem, &options) && good;
+    return good ? 0 : 1;
 }

@@ -16,6 +16,7 @@ PKG_CONFIG_PATH=$(dirname "$(find "$place/usr" -name vesica.pc)") && export PKG_
 cc -std=c17 "$1"/examples/search/*.c $(pkg-config --cflags --libs vesica) -o "$place/by_pkg_config"
 timeout 60 "$place/by_pkg_config" >"$place/second"
 timeout 60 "$program" | diff - "$place/second"
+grep -q 'stop .* pushes with 50.455 N' "$place/second" || { echo "examples/search is not right" && cat "$place/second" && exit 1; }
 
 problem=$(find "$place/usr" -name bottle.yaml)
 timeout 60 "$place/embed/build/embed" "$problem" >"$place/first"
