@@ -58,6 +58,45 @@ Test(suite_meter, charges_and_writes_down)
     ves_meter_end(&m);
 }
 
+/* A method that ignores bounds, as NLopt's NEWUOA does, would find 0.05 below the box. */
+Test(suite_meter, beyond_the_box_there_is_no_value)
+{
+    static const double beyond[] = {-1e-12, 1 + 1e-12, -INFINITY, NAN};
+    ves_meter m = {
+        .inner = &raw, .budget = 12, .cost = 1, .cost_gradient = 3, .inequality = 0.1, .equality = 1};
+    m.target = -HUGE_VAL;
+    ves_verdict v;
+    cr_assert(ves_meter_begin(&m));
+    for (int k = 0; k < 4; k++) {
+        cr_expect(ask(&m, beyond[k], false, &v) == VES_OK && v.status == VES_OUTSIDE, "%g", beyond[k]);
+        cr_expect(m.spent == k + 1 && m.failed == k + 1 && !m.any, "charged, and nothing found");
+    }
+    cr_expect(ask(&m, 1, false, &v) == VES_OK && v.status == VES_OK && m.value == 1);
+    ves_meter_end(&m);
+}
+
+static ves_status mirrored(void *data, const double *a, const double *b, bool *same)
+{
+    *same = *(double *)data + a[0] == -b[0];
+    return VES_OK;
+}
+
+/* The question whether two designs are one goes to the problem, with the problem's data. */
+Test(suite_meter, asks_the_problem_what_is_the_same)
+{
+    double shift = 0.25, a = 0.25, b = -0.5;
+    bool same = false;
+    ves_search_problem inner = raw;
+    inner.same = mirrored;
+    inner.data = &shift;
+    ves_meter m = {.inner = &inner, .budget = 1, .cost = 1, .cost_gradient = 3};
+    ves_search_problem p = ves_meter_problem(&m, NULL);
+    cr_expect(p.same(p.data, &a, &b, &same) == VES_OK && same);
+    cr_expect(p.same(p.data, &b, &b, &same) == VES_OK && !same);
+    m.inner = &raw;
+    cr_expect(ves_meter_problem(&m, NULL).same == NULL);
+}
+
 Test(suite_meter, ends_at_the_target)
 {
     ves_meter m = {

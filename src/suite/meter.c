@@ -95,11 +95,24 @@ static ves_status charge(ves_meter *meter, const ves_ask *ask)
     return VES_OK;
 }
 
+/* The problem has no values beyond its box; a method that ignores bounds must not win there. */
+static bool inside(const ves_meter *meter, const double *x)
+{
+    for (int i = 0; i < meter->inner->n; i++)
+        if (!(x[i] >= 0 && x[i] <= 1)) return false;
+    return true;
+}
+
 static ves_status evaluate(void *data, int worker, const ves_ask *ask, ves_verdict *verdict)
 {
     ves_meter *meter = data;
     const ves_search_problem *p = meter->inner;
     VES_TRY(charge(meter, ask));
+    if (!inside(meter, ask->x)) {
+        verdict->status = VES_OUTSIDE;
+        meter->failed++;
+        return VES_OK;
+    }
     double begin = meter->clock ? meter->clock() : 0;
     ves_status status = p->evaluate(p->data, worker, ask, verdict);
     if (meter->clock) meter->inside += meter->clock() - begin;
@@ -122,10 +135,17 @@ static ves_status evaluate(void *data, int worker, const ves_ask *ask, ves_verdi
     return meter->fault;
 }
 
+static ves_status same(void *data, const double *a, const double *b, bool *is)
+{
+    const ves_search_problem *p = ((const ves_meter *)data)->inner;
+    return p->same(p->data, a, b, is);
+}
+
 ves_search_problem ves_meter_problem(ves_meter *meter, const double *start)
 {
     ves_search_problem problem = *meter->inner;
     problem.evaluate = evaluate;
+    if (problem.same) problem.same = same;
     problem.data = meter;
     problem.workers = 1;
     problem.start = start;

@@ -39,7 +39,8 @@ typedef struct ves_meter {
 bool ves_meter_begin(ves_meter *meter);
 void ves_meter_end(ves_meter *meter); /* frees */
 
-/* The problem as the method sees it: ask through this. VES_INTERRUPTED from evaluate: it is over. */
+/* The problem as the method sees it: ask through this. VES_INTERRUPTED from evaluate: it is over. A point
+ * outside the unit box costs as any other and has no value (VES_OUTSIDE). */
 ves_search_problem ves_meter_problem(ves_meter *meter, const double *start);
 
 double ves_meter_left(const ves_meter *meter);
