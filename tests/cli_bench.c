@@ -136,6 +136,11 @@ Test(cli_bench, shapes_are_measured_against_the_best_of_all)
     root_remove();
 }
 
+/* It writes and never reads: after some thousand answers the socket is full. */
+#define DEAF                                                                                                 \
+    "import sys\nwhile True:\n    sys.stdout.write('{\"ask\": [0.5, 0.5]}\\n' * 100)\n    "                  \
+    "sys.stdout.flush()\n"
+
 static int failed_with(const char *path, const char *method, const char *reason)
 {
     char *text = slurp(path), head[64];
@@ -187,6 +192,62 @@ Test(cli_bench, programs_take_part_and_what_they_do_wrong_is_recorded, .timeout 
     cr_expect(failed_with("one/runs.jsonl", "random", "\"spent\":200,\"evaluations\":200") == 2);
     cr_expect(failed_with("one/runs.jsonl", "once", "\"spent\":200,\"evaluations\":200") == 2,
               "started again");
+    root_remove();
+}
+
+static bool alive(const char *word)
+{
+    char command[200];
+    snprintf(command, sizeof command, "pgrep -f '%s' >/dev/null", word);
+    return system(command) == 0;
+}
+
+/* Neither a program that does not read nor one that hangs holds up a signal, and what is killed takes it along. */
+Test(cli_bench, ends_with_a_program_that_does_not_listen, .timeout = 120)
+{
+    root_make();
+    write_file("deaf.py", DEAF);
+    write_file("d.yaml", "vesica: 1\nsuite: deaf\nproblems: [{function: sphere, n: 2}]\nseeds: 1\n"
+                         "budget: {per_dimension: 1e9, most: 1e9}\n"
+                         "methods: {deaf: {program: [python3, ./deaf.py], seconds: 0.5}}\n");
+    expect(vesica(NULL, "bench d.yaml --out deaf"), 0, NULL, NULL, "deaf");
+    cr_expect(failed_with("deaf/runs.jsonl", "deaf", "the program read nothing for 0.5 s") == 1);
+    write_file("s.yaml", "vesica: 1\nsuite: deaf\nproblems: [{function: sphere, n: 2}]\nseeds: 1\n"
+                         "budget: {per_dimension: 1e9, most: 1e9}\n"
+                         "methods: {deaf: {program: [python3, ./deaf.py]}}\n");
+    pid_t child = launch("bench s.yaml --out busy", NULL, "stdout.busy");
+    wait_for_file("busy/suite.yaml");
+    nanosleep(&(struct timespec){.tv_sec = 2}, NULL);
+    kill(child, SIGTERM);
+    cr_expect(wait_for(child) == 130);
+    write_file("s.yaml", "vesica: 1\nsuite: hangs\nproblems: [{function: sphere, n: 2}]\nseeds: 1\n"
+                         "methods: {hangs: {program: [sleep, \"61.25\"]}}\n");
+    child = launch("bench s.yaml --out killed", NULL, "stdout.busy");
+    for (int k = 0; k < 500 && !alive("sleep 61.2[5]"); k++)
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+    cr_expect(alive("sleep 61.2[5]"));
+    kill(child, SIGKILL);
+    wait_for(child);
+    for (int k = 0; k < 500 && alive("sleep 61.2[5]"); k++)
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+    cr_expect(!alive("sleep 61.2[5]"), "a program outlives the bench");
+    root_remove();
+}
+
+/* Every suite that is shipped, as far as a few evaluations go: shapes are drawn together by their symmetry. */
+Test(cli_bench, every_suite_that_is_shipped_runs, .timeout = 600)
+{
+    static const char *const list[] = {"classic", "constrained", "elastica", "shapes"};
+    root_make();
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++)
+        expect(vesica(NULL,
+                      "bench " VESICA_SOURCE "/bench/suites/%s.yaml --set seeds=1 --set budget.most=300 "
+                      "--no-files",
+                      list[k]),
+               0, "Within ", NULL, list[k]);
+    expect(vesica(NULL, "bench " VESICA_SOURCE "/bench/suites/shapes.yaml --set seeds=2 --set "
+                        "budget.most=1500 --no-files"),
+           0, "Within ", NULL, "shapes");
     root_remove();
 }
 

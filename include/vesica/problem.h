@@ -29,6 +29,7 @@ typedef struct ves_read_options {
     const ves_measure *const *plugin; /* NULL-terminated extra measures, or NULL; must outlive the problem */
     const char *const *plugin_file;   /* NULL-terminated: the files they come from, or NULL; a run keeps the
                                          names for who opens its folder again */
+    bool inner; /* the overrides stand in a file (set: {name: value}), and messages quote them so */
 } ves_read_options;
 
 /* Reads a file, or a text under a name (for messages). options NULL: none. Every error of the file is in

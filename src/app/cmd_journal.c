@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "app/app.h"
+#include "base/diag.h"
 #include "base/text.h"
 #include "study/entries.h"
-#include "study/trace.h"
 
 /* --- CSV --- */
 
@@ -54,7 +54,7 @@ static void csv_line(const ves_entries *e, const ves_entry *entry)
     cell(entry->violation);
     for (int k = 0; k < e->m; k++) cell(entry->excess ? entry->excess[k] : NAN);
     cell(entry->temperature);
-    printf(",%d,%s,%s\n", entry->accepted, ves_tracer_word(entry->status), asked(entry));
+    printf(",%d,%s,%s\n", entry->accepted, ves_status_word(entry->status), asked(entry));
 }
 
 /* --- JSON lines --- */
@@ -76,7 +76,7 @@ static void json_line(const ves_entries *e, const ves_entry *entry)
     ves_json_end(&json, ']');
     ves_json_number(&json, "T", entry->temperature);
     ves_json_flag(&json, "accepted", entry->accepted);
-    ves_json_text(&json, "status", ves_tracer_word(entry->status));
+    ves_json_text(&json, "status", ves_status_word(entry->status));
     ves_json_text(&json, "asked", asked(entry));
     ves_json_end(&json, '}');
 }

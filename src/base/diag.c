@@ -24,7 +24,7 @@ typedef struct message {
 struct ves_diag {
     ves_arena arena;
     source *first, *last;
-    int sources, errors, remarks, count;
+    int sources, base, errors, remarks, count;
     message kept[MESSAGES];
 };
 
@@ -53,7 +53,15 @@ int ves_diag_source(ves_diag *diag, const char *name, const char *text, size_t l
     else
         diag->first = s;
     diag->last = s;
-    return diag->sources++;
+    return diag->sources++ - diag->base;
+}
+
+int ves_diag_base(ves_diag *diag, int base)
+{
+    if (!diag) return 0;
+    int before = diag->base;
+    diag->base = base < 0 ? diag->sources : base;
+    return before;
 }
 
 ves_status ves_diag_add(ves_diag *diag, ves_severity severity, ves_status status, ves_mark mark,
@@ -69,6 +77,7 @@ ves_status ves_diag_add(ves_diag *diag, ves_severity severity, ves_status status
     va_end(list);
     const char *copy = ves_arena_text(&diag->arena, text, strlen(text));
     message m = {severity, status, mark, copy ? copy : ves_status_text(VES_MEMORY)};
+    m.mark.source += diag->base;
     diag->kept[diag->count++] = m;
     return status;
 }

@@ -1,4 +1,4 @@
-#include "vesica/status.h"
+#include "base/diag.h"
 
 const char *ves_status_text(ves_status status)
 {
@@ -10,4 +10,16 @@ const char *ves_status_text(ves_status status)
 #undef VES_STATUS_CASE
     }
     return "unknown status";
+}
+
+const char *ves_status_word(ves_status status)
+{
+    switch (status) {
+#define CASE(name, value, sentence)                                                                          \
+    case VES_##name:                                                                                         \
+        return #name;
+        VES_STATUS_LIST(CASE)
+#undef CASE
+    }
+    return "FAULT";
 }

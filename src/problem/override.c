@@ -10,24 +10,24 @@
 
 enum { WORD = 200, PATH = 32 };
 
-static const char option[] = "--set ";
-
 typedef struct override {
     ves_script *script;
     ves_diag *diag;
+    const char *option, *equals;        /* how the user has written it: "--set " name "=" value */
     const char *name, *value, *written; /* written: the value as it is put into the text */
     int source;
 } override;
 
 static ves_mark name_mark(const override *o)
 {
-    return (ves_mark){o->source, 1, (int)sizeof option, (int)strlen(o->name)};
+    return (ves_mark){o->source, 1, (int)strlen(o->option) + 1, (int)strlen(o->name)};
 }
 
 static ves_mark value_mark(const override *o)
 {
     int length = (int)strlen(o->value);
-    return (ves_mark){o->source, 1, (int)(sizeof option + strlen(o->name) + 1), length ? length : 1};
+    size_t before = strlen(o->option) + strlen(o->name) + strlen(o->equals);
+    return (ves_mark){o->source, 1, (int)before + 1, length ? length : 1};
 }
 
 /* Words with a meaning in YAML are quoted; what is in brackets is taken as it is. */
@@ -55,8 +55,8 @@ static ves_status write(const override *o, size_t begin, size_t end, const char 
     if (!text) return VES_MEMORY;
     bool added = o->written != o->value; /* an opening quote that is not in the override */
     ves_edit edit = {.begin = begin, .end = end, .value = strlen(before) + added, .source = o->source};
-    edit.name_column = (int)sizeof option;
-    edit.value_column = edit.name_column + (int)strlen(o->name) + 1;
+    edit.name_column = (int)strlen(o->option) + 1;
+    edit.value_column = edit.name_column + (int)(strlen(o->name) + strlen(o->equals));
     return ves_script_replace(o->script, &edit, text);
 }
 
@@ -196,7 +196,7 @@ static ves_status set_path(const override *o, const ves_node *root)
     char *path = ves_arena_text(o->script->arena, o->name, strlen(o->name));
     if (!path) return VES_MEMORY;
     const ves_node *node = root;
-    const ves_entry *entry = &ves_schema_root;
+    const ves_entry *entry = ves_node_find(root, "suite") ? &ves_schema_suite : &ves_schema_root;
     for (int depth = 0; depth < PATH; depth++) {
         char *dot = strchr(path, '.');
         if (dot) *dot = 0;
@@ -295,14 +295,15 @@ static ves_status check_value(const override *o)
 
 static ves_status apply_one(override *o, const ves_node *root)
 {
-    char *shown = ves_arena_format(o->script->arena, "%s%s=%s", option, o->name, o->value);
-    char *title = ves_arena_format(o->script->arena, "--set %s", o->name);
+    char *shown = ves_arena_format(o->script->arena, "%s%s%s%s", o->option, o->name, o->equals, o->value);
+    char *title = ves_arena_format(o->script->arena, "%s%s", o->option, o->name);
     if (!shown || !title) return VES_MEMORY;
     o->source = ves_diag_source(o->diag, title, shown, strlen(shown));
     o->written = quoted(o->script->arena, o->value);
     if (!o->written) return VES_MEMORY;
     if (!*o->name || strlen(o->name) > WORD)
-        return ves_diag_add(o->diag, VES_ERROR, VES_USAGE, name_mark(o), "expected --set name=value");
+        return ves_diag_add(o->diag, VES_ERROR, VES_USAGE, name_mark(o), "expected %sname%svalue", o->option,
+                            o->equals);
     VES_TRY(check_value(o));
     return strchr(o->name, '.') ? set_path(o, root) : set_name(o, root);
 }
@@ -315,7 +316,14 @@ ves_status ves_override_apply(ves_script *script, const ves_read_options *option
     int overrides = options ? options->overrides : 0;
     if (!*root || (*root)->kind != VES_NODE_MAP) return VES_OK; /* the reader will say so */
     for (int k = 0; k < overrides; k++) {
-        override o = {script, diag, options->override[k].name, options->override[k].value, NULL, 0};
+        override o = {script,
+                      diag,
+                      options->inner ? "set: " : "--set ",
+                      options->inner ? ": " : "=",
+                      options->override[k].name,
+                      options->override[k].value,
+                      NULL,
+                      0};
         ves_status status = apply_one(&o, *root);
         if (status == VES_MEMORY) return status;
         if (first == VES_OK) first = status;

@@ -1,10 +1,16 @@
 #include "study/load.h"
 
 #include <errno.h>
+#include <limits.h>
+#include <stdio.h>
 #include <string.h>
+#include <unistd.h>
+#include <zlib.h>
 
 #include "base/text.h"
 #include "study/open.h"
+
+enum { CHUNK = 65536 };
 
 ves_status ves_json_load(const char *path, ves_arena *arena, const ves_node **root)
 {
@@ -34,4 +40,22 @@ bool ves_json_true(const ves_node *map, const char *key)
 {
     const char *word = ves_json_word(map, key);
     return word && !strcmp(word, "true");
+}
+
+unsigned long ves_study_sum(const char *path)
+{
+    unsigned char chunk[CHUNK];
+    uLong crc = crc32_z(0, NULL, 0);
+    FILE *file = fopen(path, "rb");
+    if (!file) return 0;
+    for (size_t count; (count = fread(chunk, 1, sizeof chunk, file)) > 0;) crc = crc32_z(crc, chunk, count);
+    fclose(file);
+    return crc;
+}
+
+const char *ves_study_absolute(const char *path, ves_arena *arena)
+{
+    char here[PATH_MAX];
+    if (*path == '/' || !getcwd(here, sizeof here)) return path;
+    return ves_arena_format(arena, "%s/%s", here, path);
 }

@@ -13,4 +13,10 @@ const char *ves_json_word(const ves_node *map, const char *key);
 double ves_json_double(const ves_node *map, const char *key, double otherwise);
 bool ves_json_true(const ves_node *map, const char *key);
 
+/* The checksum of a file (CRC-32); 0: it cannot be read. */
+unsigned long ves_study_sum(const char *path);
+
+/* The path as it holds from any folder. NULL: out of memory. */
+const char *ves_study_absolute(const char *path, ves_arena *arena);
+
 #endif

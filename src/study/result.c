@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/diag.h"
 #include "base/vector.h"
-#include "study/trace.h"
 
 static void variables(const ves_problem *problem, const double *x, ves_json *json)
 {
@@ -212,7 +212,7 @@ static void statistics(const ves_run *run, ves_json *json)
 {
     ves_json_object(json, "failed");
     for (int k = 0; k < run->failures; k++)
-        ves_json_integer(json, ves_tracer_word(run->failure[k].status), run->failure[k].count);
+        ves_json_integer(json, ves_status_word(run->failure[k].status), run->failure[k].count);
     ves_json_end(json, '}');
     annealings(run, json);
     ves_json_array(json, "temperatures");

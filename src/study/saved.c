@@ -1,10 +1,8 @@
 #include "study/saved.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include "base/diag.h"
@@ -14,44 +12,22 @@
 #include "study/folder.h"
 #include "study/load.h"
 
-enum { CHUNK = 65536 };
-
 static const char TRACES[] = "short|all|accepted|none";
 static const ves_mark NOWHERE = {0};
 
 /* --- writing --- */
-
-/* 0: it cannot be read. */
-static unsigned long sum_of(const char *path)
-{
-    unsigned char chunk[CHUNK];
-    uLong crc = crc32_z(0, NULL, 0);
-    FILE *file = fopen(path, "rb");
-    if (!file) return 0;
-    for (size_t count; (count = fread(chunk, 1, sizeof chunk, file)) > 0;) crc = crc32_z(crc, chunk, count);
-    fclose(file);
-    return crc;
-}
-
-/* NULL: out of memory. */
-static const char *absolute(const char *path, ves_arena *arena)
-{
-    char here[PATH_MAX];
-    if (*path == '/' || !getcwd(here, sizeof here)) return path;
-    return ves_arena_format(arena, "%s/%s", here, path);
-}
 
 static ves_status plugins_write(const ves_problem *problem, ves_arena *arena, ves_json *json)
 {
     ves_status status = VES_OK;
     ves_json_array(json, "plugins");
     for (const char *const *file = problem->plugin_file; file && *file; file++) {
-        const char *path = absolute(*file, arena);
+        const char *path = ves_study_absolute(*file, arena);
         if (!path) status = VES_MEMORY;
         ves_json_object(json, NULL);
         ves_json_text(json, "given", *file);
         ves_json_text(json, "path", path);
-        ves_json_count(json, "crc", sum_of(*file));
+        ves_json_count(json, "crc", ves_study_sum(*file));
         ves_json_end(json, '}');
     }
     ves_json_end(json, ']');
@@ -198,7 +174,7 @@ ves_status ves_saved_read(const char *folder, ves_arena *arena, ves_saved *saved
 ves_status ves_saved_compare(const ves_saved *saved, const char *const *path, ves_diag *diag)
 {
     for (int k = 0; k < saved->plugins; k++)
-        if (sum_of(path[k]) != saved->plugin[k].sum)
+        if (ves_study_sum(path[k]) != saved->plugin[k].sum)
             return ves_diag_add(
                 diag, VES_ERROR, VES_STALE, NOWHERE,
                 "the plugin \"%s\" is not the one that the run \"%s\" was made with: give that "

@@ -28,18 +28,6 @@ ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, bool again, ve
     return tracer->out ? VES_OK : ves_file_complain(path, errno, tracer->diag);
 }
 
-const char *ves_tracer_word(ves_status status)
-{
-    switch (status) {
-#define CASE(name, value, sentence)                                                                          \
-    case VES_##name:                                                                                         \
-        return #name;
-        VES_STATUS_LIST(CASE)
-#undef CASE
-    }
-    return "FAULT";
-}
-
 static void complain(ves_tracer *tracer)
 {
     if (tracer->status == VES_OK) tracer->status = ves_file_complain(tracer->path, errno, tracer->diag);
@@ -66,7 +54,7 @@ static size_t compose(const ves_tracer *tracer, const ves_record *r, char *at)
     at += number(at, "violation", ves_design_violation(tracer->problem, r), "%.9g");
     at += number(at, "T", r->temperature, "%.9g");
     at += snprintf(at, FIXED / 4, ",\"accepted\":%s,\"status\":\"%s\"}\n", r->accepted ? "true" : "false",
-                   ves_tracer_word(r->status));
+                   ves_status_word(r->status));
     return (size_t)(at - begin);
 }
 

@@ -27,7 +27,4 @@ ves_status ves_tracer_begin(ves_tracer *tracer, const char *path, bool again, ve
 void ves_tracer_write(ves_tracer *tracer, const ves_record *record);
 ves_status ves_tracer_end(ves_tracer *tracer);
 
-/* The name of a status in files, as in VES_STATUS_LIST: FOLDED, NO_NUMBER ... */
-const char *ves_tracer_word(ves_status status);
-
 #endif

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/diag.h"
 #include "base/text.h"
 #include "suite/contest.h"
 #include "suite/instance.h"
@@ -21,6 +22,7 @@ typedef struct talk {
     char *text; /* what is to be said; [room] */
     size_t length, room;
     bool failed; /* no memory for it */
+    bool ended;  /* why there is no more to say is known */
     double *u;
     ves_verdict answer;
     long asked; /* of the process that runs */
@@ -63,10 +65,16 @@ static void say_numbers(talk *t, const char *key, const double *value, int count
 
 static bool send_off(talk *t)
 {
+    const ves_contest *c = t->contest;
     say(t, "\n");
-    bool sent = !t->failed && ves_line_write(&t->line, t->text, t->length);
+    ves_line_end end = VES_LINE_MEMORY;
+    double seconds = c->meter->over ? patience : c->entrant->seconds;
+    if (!t->failed) end = ves_line_write(&t->line, seconds, c->stopped, c->data, t->text, t->length);
     t->length = 0;
-    return sent;
+    t->ended = end == VES_LINE_LATE || end == VES_LINE_STOPPED;
+    if (end == VES_LINE_LATE && !c->meter->over)
+        ves_contest_fail(t->contest, "the program read nothing for %g s", c->entrant->seconds);
+    return end == VES_LINE_DONE;
 }
 
 static bool slopes_given(const talk *t)
@@ -92,23 +100,11 @@ static bool say_problem(talk *t)
     return send_off(t);
 }
 
-static const char *word_of(ves_status status)
-{
-    switch (status) {
-#define CASE(name, value, sentence)                                                                          \
-    case VES_##name:                                                                                         \
-        return #name;
-        VES_STATUS_LIST(CASE)
-#undef CASE
-    }
-    return "FAULT";
-}
-
 static bool say_answer(talk *t, bool slopes)
 {
     const ves_search_problem *p = &t->problem;
     const ves_verdict *v = &t->answer;
-    say(t, "{\"status\":\"%s\"", word_of(v->status));
+    say(t, "{\"status\":\"%s\"", ves_status_word(v->status));
     if (v->status == VES_OK) {
         say_number(t, ",\"value\":", v->value);
         say_numbers(t, ",\"constraints\":", v->constraint, p->m);
@@ -148,7 +144,7 @@ static bool hear(talk *t, ves_request *request)
     ves_contest *c = t->contest;
     char *line;
     switch (ves_line_read(&t->line, c->entrant->seconds, c->stopped, c->data, &line)) {
-    case VES_LINE_READ:
+    case VES_LINE_DONE:
         break;
     case VES_LINE_LATE:
         ves_contest_fail(c, "the program said nothing for %g s", c->entrant->seconds);
@@ -194,7 +190,7 @@ static ves_status converse(talk *t)
         if (!c->meter->over) alive = say_answer(t, request.gradient);
     }
     if (t->failed) return VES_MEMORY;
-    if (!alive && !c->meter->over) mourn(t);
+    if (!alive && !t->ended && !c->meter->over) mourn(t);
     if (c->meter->over && t->line.child) {
         say(t, "{\"done\":\"%s\"}", c->meter->hit ? "target" : "budget");
         send_off(t);

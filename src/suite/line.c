@@ -4,36 +4,48 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 #include "base/arena.h"
 #include "base/text.h"
-
-extern char **environ;
 
 enum { CHUNK = 65536, STEP_MS = 100, LONGEST = 16 * 1024 * 1024 };
 
 /* --- the process --- */
 
+/* The child after the fork: a group of its own, to be ended as a whole, and an end with vesica's. */
+static void become(const char *const *word, int theirs, int fault, pid_t parent)
+{
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL); /* one that hangs would outlive a vesica that is killed */
+#endif
+    setpgid(0, 0);
+    if (getppid() == parent && dup2(theirs, 0) == 0 && dup2(theirs, 1) == 1)
+        execvp(word[0], (char *const *)word);
+    int error = errno;
+    if (write(fault, &error, sizeof error) < 0) _exit(126);
+    _exit(127);
+}
+
+/* The socket of faults is closed by a successful exec. */
 static int spawn(ves_line *line, const char *const *word, int theirs)
 {
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    pid_t child;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, theirs, 0);
-    posix_spawn_file_actions_adddup2(&files, theirs, 1);
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP); /* its own group, to be ended as a whole */
-    posix_spawnattr_setpgroup(&attributes, 0);
-    int error = posix_spawnp(&child, word[0], &files, &attributes, (char *const *)word, environ);
-    posix_spawn_file_actions_destroy(&files);
-    posix_spawnattr_destroy(&attributes);
-    if (!error) line->child = child;
+    int fault[2], error = 0;
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, fault)) return errno;
+    pid_t parent = getpid(), child = fork();
+    if (!child) become(word, theirs, fault[1], parent);
+    if (child < 0) error = errno;
+    close(fault[1]);
+    while (child > 0 && recv(fault[0], &error, sizeof error, MSG_WAITALL) < 0 && errno == EINTR) continue;
+    close(fault[0]);
+    if (child > 0 && error) waitpid(child, NULL, 0);
+    if (child > 0 && !error) line->child = child;
     return error;
 }
 
@@ -109,7 +121,7 @@ static bool whole(ves_line *line, size_t from, char **text)
 ves_line_end ves_line_read(ves_line *line, double seconds, bool (*stopped)(void *), void *data, char **text)
 {
     drop(line);
-    if (whole(line, 0, text)) return VES_LINE_READ;
+    if (whole(line, 0, text)) return VES_LINE_DONE;
     for (long waited = 0; (double)waited < 1000 * seconds;) {
         struct pollfd wait = {.fd = line->socket, .events = POLLIN};
         if (stopped && stopped(data)) return VES_LINE_STOPPED;
@@ -123,25 +135,35 @@ ves_line_end ves_line_read(ves_line *line, double seconds, bool (*stopped)(void 
         if (got <= 0) return VES_LINE_CLOSED;
         size_t from = line->length;
         line->length += (size_t)got;
-        if (whole(line, from, text)) return VES_LINE_READ;
+        if (whole(line, from, text)) return VES_LINE_DONE;
         if (line->length > LONGEST) return VES_LINE_LONG;
     }
     return VES_LINE_LATE;
 }
 
-bool ves_line_write(ves_line *line, const char *text, size_t length)
+ves_line_end ves_line_write(ves_line *line, double seconds, bool (*stopped)(void *), void *data,
+                            const char *text, size_t length)
 {
-    while (length) {
-        ssize_t sent = send(line->socket, text, length, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR) continue;
-        if (sent <= 0) return false;
-        text += sent;
-        length -= (size_t)sent;
+    for (long waited = 0; length && (double)waited < 1000 * seconds;) {
+        struct pollfd wait = {.fd = line->socket, .events = POLLOUT};
+        if (stopped && stopped(data)) return VES_LINE_STOPPED;
+        ssize_t sent = send(line->socket, text, length, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent > 0) {
+            text += sent;
+            length -= (size_t)sent;
+            waited = 0;
+        } else if (sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+            if (poll(&wait, 1, STEP_MS) <= 0) waited += STEP_MS;
+        } else if (!(sent < 0 && errno == EINTR)) {
+            return VES_LINE_CLOSED;
+        }
     }
-    return true;
+    return length ? VES_LINE_LATE : VES_LINE_DONE;
 }
 
-/* --- what a line says --- */
+/* --- what a line says: JSON [RFC 8259] --- */
+
+enum { DEEP = 64 };
 
 static const char *blank(const char *at)
 {
@@ -157,62 +179,105 @@ static const char *quoted(const char *at)
     return *at ? at + 1 : NULL;
 }
 
-/* Behind any value, or NULL: brackets are counted, not checked. */
-static const char *value(const char *at)
+static const char *digits(const char *at)
 {
-    int depth = 0;
-    do {
-        at = blank(at);
-        if (*at == '"') {
-            at = quoted(at);
-            if (!at) return NULL;
-            continue;
-        }
-        if (*at == '[' || *at == '{') depth++;
-        if (*at == ']' || *at == '}') depth--;
-        if (!*at || depth < 0) return NULL;
-        if (strchr("[]{},:", *at))
-            at++;
-        else
-            at += strcspn(at, "[]{},:\" \t\r");
-    } while (depth > 0);
-    return at;
+    size_t count = strspn(at, "0123456789");
+    return count ? at + count : NULL;
+}
+
+/* Behind a number as JSON writes it (no .5, no 5., no 05), or NULL. */
+static const char *numeral(const char *at)
+{
+    if (*at == '-') at++;
+    at = *at == '0' ? at + 1 : digits(at);
+    if (at && *at == '.') at = digits(at + 1);
+    if (!at || (*at != 'e' && *at != 'E')) return at;
+    return digits(at + 1 + (at[1] == '-' || at[1] == '+'));
 }
 
 static const char *number(const char *at, double *out)
 {
     char word[64] = "";
-    size_t length = strcspn(at, ",] \t\r");
-    if (length >= sizeof word) return NULL;
-    memcpy(word, at, length);
-    return ves_text_number(word, out) ? at + length : NULL;
+    const char *end = numeral(at);
+    if (!end || (size_t)(end - at) >= sizeof word) return NULL;
+    memcpy(word, at, (size_t)(end - at));
+    return ves_text_number(word, out) ? end : NULL;
+}
+
+/* Behind one of the words, or NULL. */
+static const char *named(const char *at)
+{
+    static const char *const word[] = {"true", "false", "null"};
+    for (int k = 0; k < 3; k++)
+        if (!strncmp(at, word[k], strlen(word[k]))) return at + strlen(word[k]);
+    return NULL;
+}
+
+/* What comes between two members: behind a comma that another follows, or at the end. NULL: neither. */
+static const char *next(const char *at, char end)
+{
+    at = blank(at);
+    if (*at == end) return at;
+    if (*at != ',') return NULL;
+    at = blank(at + 1);
+    return *at == end ? NULL : at;
+}
+
+/* Behind "key": , or NULL. */
+static const char *keyed(const char *at)
+{
+    at = quoted(at);
+    if (at) at = blank(at);
+    return at && *at == ':' ? blank(at + 1) : NULL;
+}
+
+/* Behind any value, or NULL. */
+static const char *value(const char *at, int depth)
+{
+    char end = *at == '[' ? ']' : '}';
+    if (*at == '"') return quoted(at);
+    if (*at != '[' && *at != '{') return named(at) ? named(at) : numeral(at);
+    if (depth == DEEP) return NULL;
+    for (at = blank(at + 1); at && *at != end;) {
+        if (end == '}') at = keyed(at);
+        if (at) at = value(at, depth + 1);
+        if (at) at = next(at, end);
+    }
+    return at ? at + 1 : NULL;
 }
 
 static const char *numbers(const char *at, int n, double *u, int *count)
 {
     *count = 0;
     if (*at++ != '[') return NULL;
-    for (at = blank(at); *at && *at != ']'; at = blank(at)) {
+    for (at = blank(at); at && *at != ']';) {
         double x;
         at = number(at, &x);
         if (!at) return NULL;
         if (*count < n) u[*count] = x;
         ++*count;
-        at = blank(at);
-        if (*at == ',') at++;
+        at = next(at, ']');
     }
-    return *at ? at + 1 : NULL;
+    return at ? at + 1 : NULL;
 }
 
 static const char *flag(const char *at, bool *out)
 {
-    *out = !strncmp(at, "true", 4);
-    return *out ? at + 4 : !strncmp(at, "false", 5) ? at + 5 : NULL;
+    *out = *at == 't';
+    return *at == 't' || *at == 'f' ? named(at) : NULL;
 }
 
-static bool is(const char *key, const char *end, const char *word)
+/* Done is what a program says with anything but false. */
+static const char *done(const char *at, bool *out)
 {
-    return (size_t)(end - key) == strlen(word) + 2 && !strncmp(key + 1, word, strlen(word));
+    *out = *at != 'f';
+    return value(at, 0);
+}
+
+static bool is(const char *key, const char *word)
+{
+    size_t length = strlen(word);
+    return !strncmp(key + 1, word, length) && key[1 + length] == '"';
 }
 
 bool ves_request_read(const char *text, int n, double *u, ves_request *request)
@@ -220,22 +285,16 @@ bool ves_request_read(const char *text, int n, double *u, ves_request *request)
     *request = (ves_request){.count = -1};
     const char *at = blank(text);
     if (*at++ != '{') return false;
-    for (at = blank(at); *at && *at != '}'; at = blank(at)) {
+    for (at = blank(at); at && *at != '}';) {
         const char *key = at;
-        const char *end = quoted(at);
-        at = end ? blank(end) : "";
-        if (*at != ':') return false;
-        at = blank(at + 1);
-        if (is(key, end, "ask"))
+        at = keyed(at);
+        if (at && is(key, "ask"))
             at = numbers(at, n, u, &request->count);
-        else if (is(key, end, "gradient"))
+        else if (at && is(key, "gradient"))
             at = flag(at, &request->gradient);
-        else
-            at = value(at);
-        if (is(key, end, "done")) request->done = true;
-        if (!at) return false;
-        at = blank(at);
-        if (*at == ',') at++;
+        else if (at)
+            at = is(key, "done") ? done(at, &request->done) : value(at, 0);
+        if (at) at = next(at, '}');
     }
-    return *at == '}' && !*blank(at + 1) && (request->done || request->count >= 0);
+    return at && !*blank(at + 1) && (request->done || request->count >= 0);
 }

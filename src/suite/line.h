@@ -17,17 +17,18 @@ typedef struct ves_line {
 int ves_line_open(ves_line *line, const char *const *word);
 
 typedef enum ves_line_end {
-    VES_LINE_READ,    /* *text is the next line */
+    VES_LINE_DONE,    /* *text is the next line; or all was written */
     VES_LINE_CLOSED,  /* the program has ended, or closed its stdout */
-    VES_LINE_LATE,    /* nothing came for so long */
+    VES_LINE_LATE,    /* nothing came, or went, for so long */
     VES_LINE_STOPPED, /* stopped said so */
     VES_LINE_LONG,    /* more than 16 MB without an end */
     VES_LINE_MEMORY
 } ves_line_end;
 ves_line_end ves_line_read(ves_line *line, double seconds, bool (*stopped)(void *), void *data, char **text);
 
-/* False: the program does not listen any more. */
-bool ves_line_write(ves_line *line, const char *text, size_t length);
+/* Writes all of it. A program that writes and never reads is VES_LINE_LATE, not a wait for ever. */
+ves_line_end ves_line_write(ves_line *line, double seconds, bool (*stopped)(void *), void *data,
+                            const char *text, size_t length);
 
 /* Waits a moment for its end, then kills it with all that it has started. Returns its exit code, or minus the
  * signal that ended it. */
