@@ -430,7 +430,8 @@ Test(search_slots, a_paused_annealing_goes_the_same_way)
         ves_annealing a;
         cr_assert(eq(int, ves_session_init(&session, &problem, &o, NULL), VES_OK));
         cr_assert(eq(int, ves_search_begin(&session), VES_OK));
-        cr_assert(ves_annealing_create(&a, &session, &session.stage[0].anneal, 5000, 3));
+        cr_assert(
+            ves_annealing_create(&a, &session, &session.stage[0].anneal, 5000, ves_session_stream(0, 3)));
         for (; ves_annealing_done(&a) == false; pieces[k]++) {
             long before = a.spent;
             cr_assert(eq(int, ves_annealing_advance(&a, piece[k]), VES_OK));

@@ -8,8 +8,9 @@
  *     ... result->x, result->value ...
  *     ves_search_result_destroy(result);
  *
- * One seed, one result, whatever `workers` is: random numbers are counters, and members of the population
- * meet only at the ends of temperature stages. */
+ * One seed, one result, whatever `workers` is: random numbers are counters, and what runs at the same time -
+ * chains, descents, a generation's candidates - hears of the others only at the end of a round, whose tasks
+ * do not depend on the number of workers. */
 #ifndef VESICA_SEARCH_H
 #define VESICA_SEARCH_H
 
@@ -53,6 +54,7 @@ typedef struct ves_search_problem {
 /* The annealer: one Metropolis loop [Ugail 2011, 7.3-7.4] and five slots, each filled by the name of a choice that
  * ves_search_choice tells. 0 (NULL, false) is the default of everything: = {0} is a whole annealing. docs/methods
  * says what each choice is for. */
+enum { VES_CHAINS = 4096 };
 typedef struct ves_anneal {
     const char
         *as; /* words for all slots that are not given: book = the book's loop, exactly. NULL: the defaults */
@@ -64,8 +66,9 @@ typedef struct ves_anneal {
                                 before a stage that polishes */
     long
         evaluations; /* budget of the stage: all chains, descents and proofs; 0: from the number of variables */
-    int chains;      /* of the population, 0: as many as it says; never depends on the number of threads */
-    double c0;       /* first temperature; 0: measured so that uphill moves are accepted at first */
+    int chains;   /* of the population, 0: as many as it says, at most VES_CHAINS; never depends on the number
+                   of threads */
+    double c0;    /* first temperature; 0: measured so that uphill moves are accepted at first */
     double s;     /* schedule (7.3), 0 < s < 1; 0: so that the temperature falls to c_end within the budget */
     double c_end; /* frozen at c_end * c0; 0: 1e-4, or 1e-10 when nothing polishes the ends */
     double step;  /* first step width as a fraction of each range; 0: 0.1 */
@@ -305,9 +308,8 @@ typedef struct ves_kkt {
         residual; /* the same relative to the largest of |grad f| at the best, at the start, and 1e-4 |f| */
     bool unique;  /* the slopes of what holds are independent, so that there are no other multipliers */
     const double *multiplier; /* [m]; 0: it does not hold the best */
-    const double
-        *bound; /* [n] df/dx at the bound that holds x, what the best value rises by when this bound is
-                                 moved up by 1; 0: none holds it */
+    const double *bound; /* [n] dL/dx at the bound that holds x: what the best value rises by, per unit, when
+                            this bound is moved up a little and constraints that hold still do; 0: none does */
 } ves_kkt;
 
 /* Why a search ended. */

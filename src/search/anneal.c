@@ -32,7 +32,7 @@ static bool chains_create(ves_annealing *a, uint32_t stream)
     const ves_chain_make make = {.proposal = ves_slots_proposal(a->options.proposal),
                                  .constraint = ves_slots_constraint(a->options.constraints),
                                  .step = a->options.step,
-                                 .stream = stream << 16,
+                                 .stream = stream,
                                  .cut = !a->options.fixed && !a->options.as};
     for (int k = 0; k < a->chains; k++) {
         if (!ves_chain_init(&a->chain[k], a->session, k, &make)) return false;
@@ -241,7 +241,7 @@ void ves_annealing_destroy(ves_annealing *a)
 ves_status ves_anneal_run(ves_session *session, const ves_anneal *options, long budget)
 {
     ves_annealing a;
-    uint32_t stream = (uint32_t)session->stage_index;
+    uint32_t stream = ves_session_stream(session->stage_index, 0);
     session->stage_name = "anneal";
     ves_status status = ves_annealing_create(&a, session, options, budget, stream) ? VES_OK : VES_MEMORY;
     if (status == VES_OK) status = ves_annealing_advance(&a, budget);

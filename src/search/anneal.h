@@ -47,8 +47,8 @@ typedef struct ves_annealing {
     double *ends; /* [chains] mean energies at the last temperature */
 } ves_annealing;
 
-/* Begins at the ends of the session. options: completed. stream: of its random numbers, one of 4096 for each
- * annealing of a search. Its memory is the session's; false when there is none. */
+/* Begins at the ends of the session. options: completed. stream: of its random numbers, from
+ * ves_session_stream. Its memory is the session's; false when there is none. */
 bool ves_annealing_create(ves_annealing *a, ves_session *session, const ves_anneal *options, long budget,
                           uint32_t stream);
 

@@ -20,7 +20,7 @@ static ves_status judge(ves_asker *asker, ves_point *point, bool accepted)
 static void draw(const ves_search_problem *problem, uint64_t seed, uint64_t step, const double *start,
                  double *u)
 {
-    ves_random random = {.seed = seed, .chain = UINT32_MAX, .step = step};
+    ves_random random = {.seed = seed, .chain = VES_STREAM_BEGIN, .step = step};
     double width = pow(10, -3 * ves_random_uniform(&random));
     for (int i = 0; i < problem->n; i++)
         u[i] = step % 2 ? ves_point_reflect(start[i] + width * ves_random_normal(&random))

@@ -57,7 +57,7 @@ static bool bad_budget(long evaluations)
 
 static ves_status check_anneal(const ves_anneal *a)
 {
-    if (bad_budget(a->evaluations) || a->chains < 0) return VES_RANGE;
+    if (bad_budget(a->evaluations) || a->chains < 0 || a->chains > VES_CHAINS) return VES_RANGE;
     if (bad(a->c0) || bad(a->c_end) || bad(a->step) || bad(a->weight)) return VES_RANGE;
     bool ranges = a->c_end <= 1 && a->step <= 1 && a->s >= 0 && a->s < 1;
     return ranges && ves_slots_check(a) ? VES_OK : VES_RANGE;

@@ -10,6 +10,7 @@
  * Every one is paused, never thrown away, so that none loses what it has learned. */
 
 enum { MEMBERS = VES_STRATEGIES / VES_STAGES - 1, SLICE = 16 };
+_Static_assert((int)MEMBERS < (int)VES_STREAM_MEMBERS, "each has random numbers of its own");
 
 /* What is enough to end before a budget that nobody gave is spent: so many descents from random points to the
  * best, and so little of the box that is expected to lead to minima which none of them has seen. */
@@ -62,7 +63,7 @@ static ves_strategy_report *report_new(const portfolio *p, const char *name)
 static bool add(portfolio *p, const ves_strategy *strategy, double share)
 {
     member *m = &p->member[p->members];
-    uint32_t stream = (uint32_t)p->session->stage_index << 20 | (uint32_t)(p->members + 1) << 16;
+    uint32_t stream = ves_session_stream(p->session->stage_index, 1 + p->members);
     *m = (member){.strategy = strategy, .base = share, .share = share};
     m->state = strategy->create(&p->team, stream);
     if (!m->state) return false;
@@ -319,8 +320,9 @@ static void look_about(void *data, int worker, int index)
     asker->worker = worker;
     for (int k = 0; k < l->looks; k++) {
         int at = index * l->looks + k;
-        ves_random random = {
-            .seed = session->seed, .chain = (uint32_t)session->stage_index << 20, .step = (uint64_t)at};
+        ves_random random = {.seed = session->seed,
+                             .chain = ves_session_stream(session->stage_index, 0),
+                             .step = (uint64_t)at};
         for (int i = 0; i < session->n; i++) trial->u[i] = ves_random_uniform(&random);
         ves_point_place(session->problem, trial->u, trial->x);
         ves_ask ask = {.x = trial->x, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};

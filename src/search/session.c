@@ -248,6 +248,11 @@ ves_status ves_session_offer(ves_session *session, ves_point *const *point, int 
     return VES_OK;
 }
 
+uint32_t ves_session_stream(int stage, int member)
+{
+    return ((uint32_t)stage * VES_STREAM_MEMBERS + (uint32_t)member) << 16;
+}
+
 ves_end *ves_session_ends(ves_session *session, int room)
 {
     ves_end *end = ves_arena_take(&session->arena, (size_t)room, sizeof *end);

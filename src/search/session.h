@@ -150,6 +150,13 @@ ves_status ves_session_prove(ves_session *session, ves_point *point, ves_proof *
 ves_status ves_session_round(ves_session *session, ves_asker *const *asker, int count,
                              void (*task)(void *data, int worker, int index), void *data);
 
+/* The first of the 2^16 chains of random numbers that are a member's of a stage, and nobody else's. Member 0 is the
+ * stage itself: an annealing, or the look round of a portfolio, whose strategies are 1, 2 ... The draws before all
+ * stages are of the last chain. */
+enum { VES_STREAM_MEMBERS = 16 };
+#define VES_STREAM_BEGIN UINT32_MAX
+uint32_t ves_session_stream(int stage, int member);
+
 /* Takes `room` ends for the next stage; NULL when out of memory. */
 ves_end *ves_session_ends(ves_session *session, int room);
 
