@@ -140,6 +140,9 @@ static void same(const one *a, const one *b)
     cr_assert(a->result && b->result, "%d %d", a->status, b->status);
     cr_expect(a->result->value == b->result->value && a->result->optima == b->result->optima);
     cr_expect(eq(long, a->result->evaluations, b->result->evaluations));
+    cr_expect(eq(int, a->result->feasible, b->result->feasible));
+    cr_expect(strcmp(a->result->evidence.sentence, b->result->evidence.sentence) == 0, "%s | %s",
+              a->result->evidence.sentence, b->result->evidence.sentence);
     cr_expect(memcmp(a->result->x, b->result->x, 4 * sizeof(double)) == 0);
     cr_expect(eq(long, a->told, b->told));
     cr_expect(a->sum == b->sum, "the records, or their order");
@@ -172,10 +175,11 @@ Test(search_ranks, a_stop_of_one_ends_all, .timeout = 120)
     for (long stop = 1; stop < 600; stop += 1 + stop / 3) {
         world w;
         one rank[RANKS];
-        run_all(&w, rank, 3, &(one){.workers = 1, .stop = stop});
+        run_all(&w, rank, 3, &(one){.workers = 1, .stop = stop, .stages = stop % 2 ? NULL : "two"});
         for (int r = 0; r < 3; r++)
             cr_expect(rank[r].status == VES_INTERRUPTED && rank[r].result, "stop %ld, rank %d: %d", stop, r,
                       rank[r].status);
+        for (int r = 1; r < 3; r++) same(&rank[0], &rank[r]);
         done(rank, 3);
     }
 }

@@ -37,11 +37,12 @@ static double violation(const ves_session *session, const double *constraint)
     return worst;
 }
 
-/* What a callback may get wrong: a value that is not a number, a violation left out. */
+/* What a callback may get wrong: a value or a constraint that is not a number, a violation left out. */
 static void settle(const ves_session *session, ves_verdict *verdict)
 {
     if (verdict->status == VES_OK) {
-        if (isnan(verdict->violation)) verdict->violation = violation(session, verdict->constraint);
+        const double told = violation(session, verdict->constraint);
+        if (isnan(verdict->violation) || isnan(told)) verdict->violation = told;
         if (!isfinite(verdict->value) || isnan(verdict->violation)) verdict->status = VES_NO_NUMBER;
     }
     if (verdict->status == VES_OK) return;
@@ -131,14 +132,21 @@ static ves_status fail(ves_asker *asker, ves_status status)
     return status;
 }
 
+/* In a round that ranks share this is the one place where a task hears of a stop: so the others can follow it. */
+static bool ends(ves_session *session)
+{
+    return session->rounding ? ves_session_stopped(session) : ves_session_over(session);
+}
+
 ves_status ves_asker_judge(ves_asker *asker, const ves_ask *ask, ves_verdict *verdict)
 {
     ves_session *session = asker->session;
     if (asker->fault) return asker->fault;
     if (session->fault) return session->fault;
     if (!asker->joined) VES_TRY(ves_round_join(session, &asker, 1));
-    bool known = asker->heard < asker->known.size || asker->whole;
-    if (!known && !asker->proves && ves_session_over(session)) return VES_INTERRUPTED;
+    const bool more = asker->heard < asker->known.size, known = more || asker->whole;
+    if (!known && !asker->proves && ends(session)) return VES_INTERRUPTED;
+    if (!more && asker->broken) return VES_INTERRUPTED;
     ves_status status = known ? recall(asker, ask, verdict) : ask_now(asker, ask, verdict);
     if (status != VES_OK) return fail(asker, status);
     if (session->listens && !say(asker, ask, verdict)) return fail(asker, VES_MEMORY);
@@ -200,7 +208,7 @@ void ves_asker_merge(ves_asker *asker)
     asker->evaluations = asker->gradients = asker->failed = 0;
     asker->said.size = asker->known.size = 0;
     asker->last = asker->told = asker->saved = asker->heard = 0;
-    asker->joined = asker->whole = false;
+    asker->joined = asker->whole = asker->broken = false;
     asker->kept = now(session);
     if (asker->fault && !session->fault) session->fault = asker->fault;
 }

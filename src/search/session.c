@@ -50,8 +50,14 @@ void ves_session_destroy(ves_session *session)
 bool ves_session_over(ves_session *session)
 {
     if (session->fault) return true;
+    if (!session->shares) return ves_session_stopped(session);
+    return !session->rounding &&
+           atomic_load(&session->stopped); /* the others must see it at the same place */
+}
+
+bool ves_session_stopped(ves_session *session)
+{
     if (atomic_load(&session->stopped)) return true;
-    if (session->shares && !session->rounding) return false; /* the others must see it at the same place */
     if (!session->hooks.stopped || !session->hooks.stopped(session->hooks.data)) return false;
     atomic_store(&session->stopped, true);
     return true;

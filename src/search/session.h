@@ -46,6 +46,7 @@ typedef struct ves_asker {
     size_t last, told, saved,
         heard;   /* in said: the last event; up to where it was told, and kept; in known */
     bool whole;  /* known holds all of the round: no more may be asked */
+    bool broken; /* or all until a stop broke it off, on another rank */
     double kept; /* s: when it was saved last */
 } ves_asker;
 
@@ -112,8 +113,10 @@ ves_status ves_session_init(ves_session *session, const ves_search_problem *prob
                             const ves_search_options *options, const ves_search_hooks *hooks);
 void ves_session_destroy(ves_session *session);
 
-/* True once the search must end: fault, interrupt. */
+/* True once the search must end: fault, interrupt. A task of a round that ranks share hears of an interrupt only
+ * by an answer that it is not given, so that it ends there on all of them. */
 bool ves_session_over(ves_session *session);
+bool ves_session_stopped(ves_session *session);    /* also asks the hook */
 long ves_session_left(const ves_session *session); /* evaluations, but for those kept for the end */
 bool ves_session_equality(const ves_session *session, int j); /* is constraint j one */
 

@@ -63,26 +63,12 @@ static bool copy(ves_bytes *bytes, const unsigned char *from, size_t size)
     return true;
 }
 
-/* What a task had been answered when a stop broke it off somewhere: it is told and kept, but the task goes no way
- * again that may end elsewhere. */
-static bool take_broken(const ves_session *session, ves_asker *asker, const unsigned char *from, size_t size)
-{
-    ves_record record;
-    asker->known.size = asker->heard = 0;
-    if (!copy(&asker->said, from, size)) return false;
-    for (size_t at = 0; ves_event_read(asker->said.at, size, session->n, session->m, &at, &record);) {
-        asker->evaluations++;
-        asker->gradients += record.slope != NULL;
-        asker->failed += record.status != VES_OK && record.status != VES_CUT;
-    }
-    return true;
-}
-
+/* What a stop broke off goes as far here as it went there: to the answer that it was not given. */
 static bool take(const ves_session *session, ves_asker *asker, const unsigned char *from, size_t size)
 {
-    if (atomic_load(&session->stopped)) return take_broken(session, asker, from, size);
     asker->heard = 0;
     asker->whole = true;
+    asker->broken = atomic_load(&session->stopped);
     return copy(&asker->known, from, size);
 }
 
@@ -143,5 +129,7 @@ void ves_round_share(ves_session *session, const ves_round *round)
         return;
     }
     hear(session, &s, all, (const unsigned char *)all + total);
+    session->rounding = true;
     if (!session->fault) ves_pool_run(session->pool, round->count, other_task, &s);
+    session->rounding = false;
 }
