@@ -53,7 +53,9 @@ Test(api_search, a_callback_is_minimised_and_its_journal_read)
     cr_assert_eq(ves_search_run(&problem, &options, &hooks, &result), VES_OK);
     cr_expect(result->feasible && fabs(result->value + 2) < 1e-6, "%.12g", result->value);
     cr_expect(t.blocks > 2 && t.records == result->evaluations && t.slopes == result->gradients);
-    cr_expect(result->evidence.trust == VES_TRUST_CONVERGED && result->evidence.descents == 0);
+    const ves_evidence *e = &result->evidence;
+    cr_expect(e->trust == VES_TRUST_CONVERGED && e->descents == 0 && e->unmeasured == 0);
+    cr_expect(strncmp(e->sentence + e->verdict, "; no independent", 16) == 0, "%s", e->sentence);
     cr_expect(isnan(ves_evidence_expected(3, 1)) && ves_evidence_expected(4, 1) == 3);
     cr_expect(isnan(ves_evidence_unseen(3, 1)) && ves_evidence_unseen(4, 1) == 2. / 12);
     ves_search_result_destroy(result);

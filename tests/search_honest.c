@@ -56,8 +56,8 @@ enum { N = 6, M = 4 };
 typedef struct task {
     int n, m, way;
     double limit, factor, shut;
-    long asked, most; /* most > 0: stopped after so many */
-    bool refuse;
+    long asked, most;    /* most > 0: stopped after so many */
+    double above, below; /* the proof refuses what has x[0] above, or below; 0: does not */
 } task;
 
 enum { BOWL, WELLS, LAGRANGE, BOUND, CURVED, TWICE, NOWHERE, CORNER };
@@ -138,7 +138,8 @@ static ves_status evaluate(void *data, int worker, const ves_ask *ask, ves_verdi
         memcpy(v->gradient, g, sizeof(double) * (size_t)t->n);
         if (t->m) memcpy(v->jacobian, J, sizeof(double) * (size_t)(t->n * t->m));
     }
-    if (t->refuse && (ask->want & VES_WANT_PROOF) && x[0] > 0.1) v->status = VES_COARSE;
+    const bool refused = (t->above > 0 && x[0] > t->above) || (t->below > 0 && x[0] < t->below);
+    if ((ask->want & VES_WANT_PROOF) && refused) v->status = VES_COARSE;
     return VES_OK;
 }
 
@@ -231,10 +232,12 @@ Test(honest, the_best_of_a_small_basin_is_not_given_up_by_an_early_end)
     /* 64 minima, the best's basin about a hundredth of the box or less */
     task t = {.n = 6, .way = WELLS};
     ves_search_options o = ves_search_options_default();
+    o.stages = 1;
+    o.stage[0] = (ves_stage){.kind = VES_STAGE_AUTO};
     ves_search_result *r = run(&t, &o, true, 1);
     for (int i = 0; i < 6; i++) cr_expect(r->x[i] < -0.9, "%g", r->x[i]);
-    cr_expect(r->evidence.hits >= 10 || r->budget - r->evaluations < r->budget / 2, "%s",
-              r->evidence.sentence);
+    cr_expect(r->evidence.hits < 10 && r->evidence.unseen > 0.01, "%s", r->evidence.sentence);
+    cr_expect(r->ending == VES_ENDED_BUDGET && strstr(r->stop, "is spent"), "%s", r->stop);
     ves_search_result_destroy(r);
 }
 
@@ -253,7 +256,8 @@ Test(honest, each_verdict_has_a_search_that_ends_in_it)
     one.stage[0] = (ves_stage){.kind = VES_STAGE_POLISH};
     cold.stage[0] = (ves_stage){.kind = VES_STAGE_ANNEAL};
     task easy = {.n = 2, .way = BOWL}, nowhere = {.n = 2, .m = 1, .way = NOWHERE},
-         shut = {.n = 2, .way = BOWL, .refuse = true}, cut = {.n = 2, .way = BOWL, .most = 500};
+         shut = {.n = 2, .way = BOWL, .above = 0.1}, half = {.n = 2, .way = BOWL, .below = 0.5},
+         cut = {.n = 2, .way = BOWL, .most = 500};
     cr_expect(eq(int, trust_of(&easy, &o), VES_TRUST_REPEATED));
     cr_expect(eq(int, trust_of(&easy, &one), VES_TRUST_CONVERGED));
     cr_expect(eq(int, trust_of(&nowhere, &o), VES_TRUST_NONE));
@@ -261,9 +265,13 @@ Test(honest, each_verdict_has_a_search_that_ends_in_it)
     cr_expect(eq(int, trust_of(&easy, &cold), VES_TRUST_FROZEN));
     cold.stage[0].anneal.schedule = "fixed";
     cold.stage[0].anneal.c0 = 1;
-    cr_expect(trust_of(&easy, &cold) != VES_TRUST_FROZEN);
+    cr_expect(eq(int, trust_of(&easy, &cold), VES_TRUST_NONE));
     one.evaluations = 6;
     cr_expect(eq(int, trust_of(&easy, &one), VES_TRUST_SHORT));
+    /* the start at 0.7 passes, the minimum at 0.3 does not */
+    one.evaluations = 0;
+    cr_expect(eq(int, trust_of(&half, &one), VES_TRUST_REFUSED));
+    cr_expect(eq(int, trust_of(&half, &o), VES_TRUST_REFUSED));
     /* the start at 0.7 does not pass either: nothing is proved where x > 0.1 */
     cr_expect(eq(int, trust_of(&shut, &one), VES_TRUST_NONE));
 }

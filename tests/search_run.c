@@ -49,6 +49,26 @@ static void on_progress(void *data, const ves_progress *p)
     cr_expect(p->stage_name && p->evaluations <= p->budget && t->records <= p->evaluations);
 }
 
+/* What is said of the best, and of who has found it. */
+static void mix_end(tape *t, const ves_search_result *r)
+{
+    const ves_evidence *e = &r->evidence;
+    mix(t, e->sentence, strlen(e->sentence));
+    const long count[] = {e->trust, e->verdict, e->descents, e->minima, e->hits, e->unmeasured, r->ending};
+    mix(t, count, sizeof count);
+    mix_number(t, e->expected), mix_number(t, e->unseen);
+    const ves_kkt *c = &r->kkt;
+    mix_number(t, c->known + 2 * c->unique), mix_number(t, c->slope), mix_number(t, c->residual);
+    if (c->known) mix(t, c->multiplier, (size_t)r->m * sizeof *c->multiplier);
+    if (c->known) mix(t, c->bound, (size_t)r->n * sizeof *c->bound);
+    for (int k = 0; k < r->strategies; k++) {
+        const ves_strategy_report *s = &r->strategy[k];
+        const long told[] = {s->stage, s->evaluations, s->gradients, s->bests, s->best};
+        mix(t, s->name, strlen(s->name));
+        mix(t, told, sizeof told);
+    }
+}
+
 static void mix_result(tape *t, const ves_search_result *r)
 {
     mix_number(t, r->value), mix_number(t, r->violation), mix_number(t, r->feasible);
@@ -63,6 +83,7 @@ static void mix_result(tape *t, const ves_search_result *r)
         mix(t, r->optimum[k].x, (size_t)r->n * sizeof(double));
         mix_number(t, r->optimum[k].value), mix_number(t, r->optimum[k].hits);
     }
+    mix_end(t, r);
     for (int k = 0; k < r->temperatures; k++) {
         const ves_temperature *c = &r->temperature[k];
         mix_number(t, c->c), mix_number(t, c->mean), mix_number(t, c->variance),

@@ -210,9 +210,8 @@ bool ves_search_block_read(const void *block, size_t size, int n, int m, ves_sea
 typedef struct ves_optimum {
     const double *x;
     double value, violation; /* of a verdict; in a run those of a design */
-    int hits;    /* how many descents ended here, the last polish included only where it is the first to: a
-                 portfolio counts those of all its strategies, as long as their end is among the 16 that
-                 are polished */
+    int hits;    /* how many descents ended here: all of the last portfolio and the independent ones of those
+                 before it; where none did, polishes */
     bool saddle; /* the second-order check found a direction of negative curvature that could not be left */
 } ves_optimum;
 
@@ -277,22 +276,29 @@ typedef enum ves_trust {
     VES_TRUST_STOPPED,   /* the search was not allowed to go on */
     VES_TRUST_REFUSED,   /* better designs did not pass the proof: it need be no optimum */
     VES_TRUST_SHORT,     /* the budget was too short to converge */
+    VES_TRUST_EDGE,      /* it lies beside designs that cannot be measured: the optimum may lie beyond them */
+    VES_TRUST_KINK,      /* the slope has not vanished there: a kink, or wrong gradients */
+    VES_TRUST_LOST,      /* the algorithm of the last descent failed before it had converged */
     VES_TRUST_FROZEN,    /* an annealing has frozen; nothing else is known */
     VES_TRUST_CONVERGED, /* a descent has converged; no second one that knew nothing of it ended there */
     VES_TRUST_REPEATED   /* at least two independent descents ended there */
 } ves_trust;
 
-/* Independent descents are those of a portfolio from points drawn uniformly from the box that ended at a point
+/* Independent descents are those of portfolios from points drawn uniformly from the box that ended at a point
  * with a value; hops from the best and lines do not count. After n of them with w distinct ends, and all numbers of
  * minima and all divisions of the box among them being as likely at first, the expected number of minima is
  * w (n - 1) / (n - w - 2), and the expected part of the box from which descents lead to minima that were not
- * seen is w (w + 1) / (n (n - 1)), both for n > w + 2 [Boender and Rinnooy Kan 1987]. */
+ * seen is w (w + 1) / (n (n - 1)), both for n > w + 2 [Boender and Rinnooy Kan 1987]. The box is the part of
+ * it from which descents come to a value. Once 512 distinct ends are known, as of a flat optimum, no more are
+ * counted. */
 typedef struct ves_evidence {
     ves_trust trust;
     const char *sentence;
-    long descents; /* n */
-    long minima;   /* w: those that turned out to be one optimum counted once; infeasible ends too */
-    long hits;     /* of them that ended at the best */
+    int verdict;     /* so long is its first part, on the best alone; what follows tells of the descents */
+    long descents;   /* n */
+    long minima;     /* w: those that turned out to be one optimum counted once; infeasible ends too */
+    long hits;       /* of them that ended at the best */
+    long unmeasured; /* descents more, not of the n, that met nothing that could be measured */
     double expected, unseen; /* NAN: not enough descents to tell */
 } ves_evidence;
 double ves_evidence_expected(long descents, long minima);

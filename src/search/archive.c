@@ -45,7 +45,11 @@ static int rise(ves_archive *archive, int k)
 int ves_archive_add(ves_archive *archive, const ves_point *point)
 {
     const ves_session *session = archive->session;
-    if (point->verdict.status != VES_OK) return -1;
+    if (archive->closes && archive->count == archive->room) return ves_archive_find(archive, point);
+    if (point->verdict.status != VES_OK) {
+        archive->failed++;
+        return -1;
+    }
     archive->met++;
     int k = ves_archive_find(archive, point);
     if (k < 0) {

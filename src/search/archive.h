@@ -9,17 +9,17 @@ enum { VES_ARCHIVE_ROOM = 64 };
 typedef struct ves_archive {
     const ves_session *session;
     int count, room;
-    ves_end *end; /* [room + 1]; the last is spare */
-    long met,
-        kinds; /* all ends, and how many of them were new: too many where one that there was no room for is
-                        met again */
+    ves_end *end;     /* [room + 1]; the last is spare */
+    bool closes;      /* a full one counts no more, as it could not tell what is new */
+    long met, failed; /* all ends with a value; and without one */
+    long
+        kinds; /* how many of the first were new: too many where one that there was no room for is met again */
 } ves_archive;
 
 /* False when out of memory. */
 bool ves_archive_create(ves_archive *archive, ves_session *session, int room);
 
-/* Adds an end. Failed ones are not counted. Returns its
- * place, or -1 when it is worse than all of a full archive. */
+/* Adds an end. Returns its place; -1: it failed, or there was no place for it. */
 int ves_archive_add(ves_archive *archive, const ves_point *point);
 
 /* The place of the end that is near a point, or -1. */

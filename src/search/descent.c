@@ -583,16 +583,3 @@ ves_status ves_descent_run(ves_descent *d, const ves_point *start, ves_point *en
     }
     return d->asker.fault ? d->asker.fault : status;
 }
-
-bool ves_descent_spent(const ves_descent *d)
-{
-    return d->spent || d->used >= d->budget;
-}
-
-const char *ves_descent_sentence(const ves_descent *d)
-{
-    if (ves_descent_spent(d)) return "the budget of evaluations is spent";
-    if (d->hopeless) return "given up: it falls too slowly to come below what is known";
-    if (d->lost) return d->lost;
-    return d->beside ? "ended beside a candidate that cannot be measured" : ves_recipe_sentence(d->code);
-}

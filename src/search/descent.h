@@ -82,8 +82,9 @@ void ves_descent_destroy(ves_descent *descent);
 /* From start to end. Returns a fault or VES_INTERRUPTED; end holds in any case. */
 ves_status ves_descent_run(ves_descent *descent, const ves_point *start, ves_point *end);
 
-/* Why it ended: had it no evaluations left; a sentence. */
+/* Why it ended: had it no evaluations left; is its end one, as far as it knows; a sentence. */
 bool ves_descent_spent(const ves_descent *descent);
+ves_halt ves_descent_halt(const ves_descent *descent);
 const char *ves_descent_sentence(const ves_descent *descent);
 
 /* Judges u (unit box), once; the answer is in descent->last. A candidate that fails is last.status > 0.

@@ -9,6 +9,8 @@
  * were counted as distinct turned out to be one optimum with another. */
 typedef struct ves_witness {
     bool feasible, refused; /* there is a best; better ones were refused by their proofs */
+    ves_halt halt;          /* what is known of it as an end, and of the slope there; NAN: nothing */
+    double residual;
     long hits, merged;
 } ves_witness;
 ves_evidence ves_evidence_judge(ves_session *session, const ves_witness *witness);

@@ -9,8 +9,12 @@
 static const double near = 1e-3;    /* of the ranges: the same optimum */
 static const double level = 1e-6;   /* relative: values that may belong to one flat optimum */
 static const double barrier = 1e-9; /* relative: what lies between two points of one basin */
+static const double golden = 0.61803398874989485;
 
-enum { HALVINGS = 17 }; /* of a way through the box, until points are one shape: 1e-5 */
+enum {
+    HALVINGS = 17, /* of a way through the box, until points are one shape: 1e-5 */
+    PROFILE = 5    /* points between two ends that may belong to one flat optimum */
+};
 
 typedef struct box {
     ves_search_result result; /* first: what the caller holds */
@@ -33,7 +37,10 @@ static ves_status between(ves_asker *asker, const ves_point *a, const ves_point 
 }
 
 /* Two ends of the same value, far apart, are one optimum when the caller knows them to be one design, or when
- * the objective is flat between them: they differ only in variables that it does not feel. */
+ * the objective is flat between them: they differ only in variables that it does not feel. Flat is no higher than the
+ * ends, and no lower than ends of one optimum may be, at multiples of the golden section: where optima repeat
+ * themselves evenly no simple part of the way is between two of them, and k of these never come nearer to one than
+ * 1 / (3 k). */
 static ves_status flat(ves_asker *asker, const ves_point *a, const ves_point *b, ves_point *point, bool *same)
 {
     ves_session *session = asker->session;
@@ -44,23 +51,21 @@ static ves_status flat(ves_asker *asker, const ves_point *a, const ves_point *b,
     *same = false;
     if (fabs(fa - fb) > level * size) return VES_OK;
     if (session->problem->same) VES_TRY(session->problem->same(session->problem->data, a->x, b->x, same));
-    if (*same || ves_session_left(session) < asker->evaluations + 3) return VES_OK;
-    for (int k = 1; k <= 3; k++) {
-        double value;
-        VES_TRY(between(asker, a, b, 0.25 * k, point, &value));
-        if (value > fmax(fa, fb) + barrier * size) return VES_OK;
+    if (*same || ves_session_left(session) < asker->evaluations + PROFILE) return VES_OK;
+    for (int k = 1; k <= PROFILE; k++) {
+        double value, t = golden * k;
+        VES_TRY(between(asker, a, b, t - floor(t), point, &value));
+        if (value > fmax(fa, fb) + barrier * size || value < fmin(fa, fb) - level * size) return VES_OK;
     }
     *same = true;
     return VES_OK;
 }
 
-static ves_status alike(ves_asker *asker, const ves_point *a, const ves_point *b, ves_point *point,
-                        bool *same)
+static bool close_by(const ves_session *session, const ves_point *a, const ves_point *b)
 {
     double apart = 0;
-    for (int i = 0; i < asker->session->n; i++) apart = fmax(apart, fabs(a->u[i] - b->u[i]));
-    *same = apart < near;
-    return *same || ves_session_over(asker->session) ? VES_OK : flat(asker, a, b, point, same);
+    for (int i = 0; i < session->n; i++) apart = fmax(apart, fabs(a->u[i] - b->u[i]));
+    return apart < near;
 }
 
 typedef struct clusters {
@@ -68,6 +73,7 @@ typedef struct clusters {
     int skipped;    /* ends that are not listed: no evaluation was left for their proofs */
     long proofs;    /* that may still be asked for */
     ves_end *first; /* the best of each; its hits and blind are those of all */
+    int *into;      /* [ends of the session] the cluster of each; -1: none */
     long merged;    /* ends of descents from random points that are one with another such */
 } clusters;
 
@@ -77,64 +83,86 @@ static void cluster_new(clusters *c, ves_session *session, const ves_point *poin
     c->first[c->count++].saddle = saddle;
 }
 
-/* What no portfolio has counted is the one descent that led here. */
-static void cluster_hit(clusters *c, ves_end *first, const ves_end *end)
-{
-    first->hits += end->hits ? end->hits : 1;
-    c->merged += first->blind && end->blind;
-    first->blind += end->blind;
-}
-
-static void cluster_add(clusters *c, ves_session *session, const ves_end *end)
-{
-    cluster_new(c, session, &end->point, end->saddle);
-    cluster_hit(c, &c->first[c->count - 1], end);
-}
-
 /* At the end nothing is kept back. */
 static long spare(const ves_session *session)
 {
     return session->budget - session->evaluations;
 }
 
-/* Into the cluster that it belongs to, if there is one. */
-static ves_status cluster_join(clusters *c, ves_asker *asker, const ves_end *end, ves_point *point,
-                               bool *joined)
+static bool identical(const ves_session *session, const ves_point *a, const ves_point *b)
 {
-    const ves_session *session = asker->session;
-    *joined = false;
-    for (int k = 0; k < c->count && !*joined; k++) {
-        VES_TRY(alike(asker, &c->first[k].point, &end->point, point, joined));
-        if (!*joined) continue;
-        cluster_hit(c, &c->first[k], end);
-        if (end->saddle && !memcmp(c->first[k].point.u, end->point.u, (size_t)session->n * sizeof(double)))
-            c->first[k].saddle = true;
+    return !memcmp(a->u, b->u, (size_t)session->n * sizeof(double));
+}
+
+/* The cluster that it belongs to; -1: none. */
+static ves_status cluster_find(const clusters *c, ves_asker *asker, const ves_end *end, ves_point *point,
+                               int *found)
+{
+    bool same;
+    *found = -1;
+    for (int k = 0; k < c->count && *found < 0; k++)
+        if (close_by(asker->session, &c->first[k].point, &end->point)) *found = k;
+    for (int k = 0; k < c->count && *found < 0 && !ves_session_over(asker->session); k++) {
+        VES_TRY(flat(asker, &c->first[k].point, &end->point, point, &same));
+        if (same) *found = k;
     }
     return VES_OK;
 }
 
-/* Or into a new one when it is feasible, proved and an end by its slope. */
-static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_point *point)
+/* Into the one that it belongs to or, when it is feasible, proved and an end by its slope, into a new one. */
+static ves_status cluster_sort(clusters *c, ves_asker *asker, ves_end *end, ves_point *point, int *into)
 {
     ves_session *session = asker->session;
-    bool joined;
+    *into = -1;
     if (end->point.verdict.violation > session->tolerance) return VES_OK;
-    VES_TRY(cluster_join(c, asker, end, point, &joined));
-    if (joined) return VES_OK;
-    if (end->stalled) return VES_OK;
-    ves_proof proof;
+    VES_TRY(cluster_find(c, asker, end, point, into));
+    if (*into >= 0) {
+        ves_end *first = &c->first[*into];
+        if (!identical(session, &first->point, &end->point)) return VES_OK;
+        first->saddle = first->saddle || end->saddle;
+        first->halt = end->halt;
+        return VES_OK;
+    }
+    if (end->halt == VES_HALT_KINK) return VES_OK;
+    ves_proof proof = end->point.proved ? VES_PROOF_PASSED : VES_PROOF_STOPPED;
     ves_asker_flush(asker); /* the proof is told after what led to it, with any number of workers */
-    if (ves_session_over(session)) {
-        if (end->point.proved) cluster_add(c, session, end);
-        return VES_OK;
+    if (!ves_session_over(session)) {
+        if (ves_session_costs(session, &end->point) && (c->proofs-- <= 0 || spare(session) <= 0)) {
+            c->skipped++;
+            return VES_OK;
+        }
+        VES_TRY(ves_session_prove(session, &end->point, &proof));
     }
-    if (ves_session_costs(session, &end->point) && (c->proofs-- <= 0 || spare(session) <= 0)) {
-        c->skipped++;
-        return VES_OK;
-    }
-    VES_TRY(ves_session_prove(session, &end->point, &proof));
-    if (proof == VES_PROOF_PASSED) cluster_add(c, session, end);
+    if (proof != VES_PROOF_PASSED) return VES_OK;
+    *into = c->count;
+    cluster_new(c, session, &end->point, end->saddle);
     return VES_OK;
+}
+
+/* Descents of portfolios that have ended there. What is already known of the place is not asked again. */
+static ves_status cluster_count(clusters *c, ves_asker *asker, const ves_end *seen, ves_point *point)
+{
+    const ves_session *session = asker->session;
+    int at = -1;
+    if (seen->point.verdict.violation > session->tolerance) return VES_OK;
+    for (int k = 0; k < session->ends && at < 0; k++)
+        if (identical(session, &session->end[k].point, &seen->point)) at = c->into[k];
+    if (at < 0) VES_TRY(cluster_find(c, asker, seen, point, &at));
+    if (at < 0) return VES_OK;
+    c->merged += c->first[at].blind && seen->blind;
+    c->first[at].hits += seen->hits;
+    c->first[at].blind += seen->blind;
+    return VES_OK;
+}
+
+/* Where no portfolio has been, the descents that led here count. */
+static void cluster_credit(clusters *c, const ves_session *session)
+{
+    for (int at = 0; at < c->count; at++) {
+        long own = 0;
+        for (int k = 0; k < session->ends; k++) own += c->into[k] == at;
+        if (!c->first[at].hits) c->first[at].hits = own ? own : 1;
+    }
 }
 
 /* What stands for an optimum was chosen with a price on violations; among optima, which are all feasible,
@@ -154,21 +182,21 @@ static ves_status cluster(clusters *c, ves_session *session, const ves_point *be
 {
     ves_point point;
     c->first = ves_session_ends(session, session->ends + 1);
-    if (!c->first || !ves_point_create(&session->arena, session->n, session->m, &point)) return VES_MEMORY;
+    c->into = ves_arena_take(&session->arena, (size_t)session->ends, sizeof *c->into);
+    if (!c->first || !c->into || !ves_point_create(&session->arena, session->n, session->m, &point))
+        return VES_MEMORY;
     cluster_new(c, session, best, false);
     ves_asker asker;
     ves_asker_init(&asker, session, -1);
     ves_status status = VES_OK;
+    for (int k = 0; k < session->ends; k++) c->into[k] = -1;
     for (int k = 0; k < session->ends && status == VES_OK; k++)
-        status = cluster_sort(c, &asker, &session->end[k], &point);
-    for (int k = 0; k < session->rests && status == VES_OK; k++) {
-        const ves_end *end = &session->rest[k];
-        bool joined, counts = end->hits && end->point.verdict.violation <= session->tolerance;
-        if (counts) status = cluster_join(c, &asker, end, &point, &joined);
-    }
+        status = cluster_sort(c, &asker, &session->end[k], &point, &c->into[k]);
+    for (int k = 0; k < session->visits && status == VES_OK; k++)
+        status = cluster_count(c, &asker, &session->visited[k], &point);
     ves_asker_flush(&asker);
     ves_asker_destroy(&asker);
-    if (!c->first[0].hits) c->first[0].hits = 1;
+    cluster_credit(c, session);
     cluster_order(c, session->tolerance);
     if (c->skipped && session->best.verdict.status == VES_OK)
         ves_session_note(session, "the budget left no proofs for %d more end%s: %s not listed", c->skipped,
@@ -378,6 +406,8 @@ static ves_status fill(box *b, ves_session *session)
     if (session->fault) return session->fault;
     const ves_witness witness = {.feasible = feasible,
                                  .refused = feasible && refused_best(session),
+                                 .halt = feasible ? c.first[0].halt : VES_HALT_UNKNOWN,
+                                 .residual = r->kkt.residual,
                                  .hits = feasible ? c.first[0].blind : 0,
                                  .merged = c.merged};
     r->evidence = ves_evidence_judge(session, &witness);

@@ -77,7 +77,7 @@ static void crown_polished(ves_annealing *a, const ves_end *end, int count)
         if (!ves_session_better(session, &end[k].point.verdict, &champion->point.verdict)) continue;
         ves_point_copy(&champion->point, &end[k].point, session->n, session->m);
         champion->saddle = end[k].saddle;
-        champion->stalled = end[k].stalled;
+        champion->halt = end[k].halt;
     }
 }
 
@@ -90,7 +90,8 @@ void ves_annealing_crown(ves_annealing *a)
         bool first = champion->point.verdict.status != VES_OK;
         if (!first && !ves_session_better(session, &end->verdict, &champion->point.verdict)) continue;
         ves_point_copy(&champion->point, end, session->n, session->m);
-        champion->saddle = champion->stalled = false;
+        champion->saddle = false;
+        champion->halt = VES_HALT_UNKNOWN;
     }
 }
 

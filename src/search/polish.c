@@ -1,4 +1,5 @@
 #include <math.h>
+#include <string.h>
 
 #include "search/descent.h"
 #include "search/saddle.h"
@@ -16,7 +17,6 @@ typedef struct task {
     int waiting; /* points to descend from */
     ves_point wait[WAITING];
     int above[WAITING]; /* the saddle that each has left: its place among the ends; -1: none */
-    long hits, blind;   /* of the end that it starts from: they go to where the first descent ends */
     int ends;
     ves_end end[ENDS];
     int sides[ENDS];     /* descents from beside the saddle that are still to come, or broke off */
@@ -40,8 +40,6 @@ static bool task_create(task *t, ves_session *session, int index, const ves_poli
 {
     if (!ves_descent_create(&t->descent, session, index, options, budget)) return false;
     t->start = &session->end[index].point;
-    t->hits = session->end[index].hits;
-    t->blind = session->end[index].blind;
     t->checks = !options->stay && t->descent.recipe.gradient && session->problem->gradients &&
                 session->n <= VES_SADDLE_MOST;
     for (int k = 0; k < WAITING; k++)
@@ -105,19 +103,22 @@ static ves_status advance(task *t)
     ves_session *session = t->descent.session;
     int at = t->ends++, from = --t->waiting, above = t->above[from];
     ves_end *end = &t->end[at];
-    end->saddle = end->pass = end->stalled = false;
-    end->hits = at ? 0 : t->hits;
-    end->blind = at ? 0 : t->blind;
+    end->saddle = end->pass = false;
+    end->halt = VES_HALT_UNKNOWN;
     ves_status status = ves_descent_run(&t->descent, &t->wait[from], &end->point);
     if (above >= 0 && lower(t, &end->point.verdict, &t->end[above].point.verdict)) t->end[above].pass = true;
     VES_TRY(status);
     if (above >= 0 && !ves_descent_spent(&t->descent)) t->sides[above]--;
     if (above >= 0) acquit(t, above);
+    end->halt = ves_descent_halt(&t->descent);
+    bool unchecked = !t->checks && t->descent.recipe.gradient && session->problem->gradients;
+    if (unchecked && end->halt == VES_HALT_REST) end->halt = VES_HALT_UNKNOWN;
     if (!t->checks || ves_descent_spent(&t->descent)) return VES_OK;
     VES_TRY(ves_saddle_check(&t->saddle, &t->descent, &end->point, &end->saddle));
     if (t->saddle.edge >= 0) note_edge(t);
-    end->stalled =
-        t->saddle.stalled && !t->descent.beside && end->point.verdict.violation <= session->tolerance;
+    if (t->saddle.running) end->halt = VES_HALT_EDGE;
+    bool stalled = t->saddle.stalled && !t->descent.beside;
+    if (stalled && end->point.verdict.violation <= session->tolerance) end->halt = VES_HALT_KINK;
     return end->saddle && t->escapes < ESCAPES ? leave(t, at) : VES_OK;
 }
 
@@ -201,7 +202,8 @@ static void note_stalls(polish *p)
     int met = 0;
     for (int k = 0; k < p->tasks; k++) {
         bool stalled = false;
-        for (int e = 0; e < p->task[k].ends; e++) stalled = stalled || p->task[k].end[e].stalled;
+        for (int e = 0; e < p->task[k].ends; e++)
+            stalled = stalled || p->task[k].end[e].halt == VES_HALT_KINK;
         met += stalled;
     }
     if (!met) return;
@@ -259,7 +261,7 @@ static void tell_stop(polish *p, const ves_polish *options)
         end = other;
     }
     bool spent = ves_descent_spent(&best->descent);
-    const char *sentence = end->stalled && !spent
+    const char *sentence = end->halt == VES_HALT_KINK && !spent
                                ? "no step leads on, but the slope has not vanished, as at a kink"
                                : ves_descent_sentence(&best->descent);
     ves_session_stop(session, spent ? VES_ENDED_BUDGET : VES_ENDED_DONE, "%s: %s", options->algorithm,
@@ -275,6 +277,21 @@ static void forget_passes(const ves_session *session, ves_end *end, int *count)
         if (!end[k].pass || !outdone) end[kept++] = end[k];
     }
     *count = kept;
+}
+
+/* Descents that are known to have ended where a task began go on with it. */
+static void take_along(const polish *p)
+{
+    const ves_session *session = p->session;
+    const size_t bytes = (size_t)session->n * sizeof(double);
+    for (int s = 0; s < session->visits; s++)
+        for (int k = 0; k < p->tasks; k++) {
+            const ves_point *end = &p->task[k].end[0].point;
+            ves_point *seen = &session->visited[s].point;
+            if (!p->task[k].ends || memcmp(seen->u, p->task[k].start->u, bytes)) continue;
+            ves_point_copy(seen, end, session->n, session->m);
+            break;
+        }
 }
 
 static ves_status collect(polish *p)
@@ -293,14 +310,10 @@ static ves_status collect(polish *p)
     for (int k = 0; k < count; k++) point[k] = &end[k].point;
     VES_TRY(ves_session_offer(session, point, count, p->proofs, refused));
     forget_passes(session, end, &count);
-    if (count) {
-        if (session->rest == session->end + session->ends) { /* the portfolio's */
-            session->rest = session->end + p->tasks;
-            session->rests += session->ends - p->tasks;
-        }
-        session->end = end;
-        session->ends = count;
-    }
+    take_along(p);
+    if (!count) return VES_OK;
+    session->end = end;
+    session->ends = count;
     return VES_OK;
 }
 

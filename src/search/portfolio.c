@@ -37,6 +37,7 @@ typedef struct portfolio {
     ves_asker *asker;
     ves_point refined; /* where it began last, or ended when that is the best */
     bool unfinished;   /* it had not converged */
+    ves_halt halt;     /* what it says of its end, when refined is that */
     long proofs;       /* that may still be asked for */
     const char *only;  /* the one member, or NULL */
     long started;      /* ends that were there at first */
@@ -80,12 +81,28 @@ static ves_ground ground_of(const ves_session *session)
     return session->problem->gradients ? VES_GROUND_GRADIENTS : VES_GROUND_VALUES;
 }
 
+/* What independent descents of portfolios before have found tells as much as what those of this one will. */
+static bool blind_create(ves_session *session, ves_archive *blind)
+{
+    if (!ves_archive_create(blind, session, BLIND_ROOM)) return false;
+    blind->closes = true;
+    for (int k = 0; k < session->visits; k++) {
+        const ves_end *seen = &session->visited[k];
+        if (!seen->blind) continue;
+        int at = ves_archive_add(blind, &seen->point);
+        if (at >= 0) blind->end[at].hits += seen->blind - 1;
+    }
+    blind->met = session->blind;
+    blind->failed = session->unmeasured;
+    return true;
+}
+
 static bool create(portfolio *p)
 {
     ves_session *session = p->session;
     p->team = (ves_team){.session = session, .weight = 1};
     if (!ves_archive_create(&p->team.archive, session, VES_ARCHIVE_ROOM)) return false;
-    if (!ves_archive_create(&p->team.blind, session, BLIND_ROOM)) return false;
+    if (!blind_create(session, &p->team.blind)) return false;
     if (!ves_point_create(&session->arena, session->n, session->m, &p->team.best)) return false;
     if (!ves_point_create(&session->arena, session->n, session->m, &p->refined)) return false;
     p->exact = (ves_polish){.algorithm = ves_search_algorithm(session->problem, &p->exact),
@@ -160,7 +177,10 @@ static ves_status refine(portfolio *p)
     bool lower = ves_session_better(session, &p->refined.verdict, &best->verdict);
     p->unfinished = lower && ves_descent_spent(&p->descent);
     ves_archive_add(&p->team.archive, &p->refined);
-    if (!ves_team_take(&p->team, &p->refined)) ves_point_copy(&p->refined, best, session->n, session->m);
+    p->halt = ves_descent_halt(&p->descent);
+    if (ves_team_take(&p->team, &p->refined)) return VES_OK;
+    if (memcmp(best->u, p->refined.u, (size_t)n * sizeof(double))) p->halt = VES_HALT_UNKNOWN;
+    ves_point_copy(&p->refined, best, session->n, session->m);
     return VES_OK;
 }
 
@@ -250,29 +270,47 @@ static bool enough(const portfolio *p)
            !memcmp(best->u, p->refined.u, (size_t)session->n * sizeof(double));
 }
 
-/* The archive goes on to the last polish. Behind it stand the ends of independent descents that it had no room for,
- * as where a flat optimum has filled it: they tell how often, not where. */
+/* What is known of ends: those of the archive, and those of independent descents that it had no room for, as where a
+ * flat optimum has filled it. */
+static ves_status witness(portfolio *p)
+{
+    ves_session *session = p->session;
+    const ves_archive *archive = &p->team.archive, *blind = &p->team.blind;
+    ves_end *seen = ves_session_ends(session, archive->count + blind->count);
+    if (!seen) return VES_MEMORY;
+    int seens = archive->count, kinds = 0;
+    for (int k = 0; k < archive->count; k++) {
+        ves_point_copy(&seen[k].point, &archive->end[k].point, session->n, session->m);
+        seen[k].hits = archive->end[k].hits;
+    }
+    for (int k = 0; k < blind->count; k++) {
+        const ves_end *end = &blind->end[k];
+        int at = ves_archive_find(archive, &end->point);
+        if (at < 0) ves_point_copy(&seen[at = seens++].point, &end->point, session->n, session->m);
+        seen[at].blind += end->hits;
+        if (seen[at].hits < seen[at].blind) seen[at].hits = seen[at].blind; /* of portfolios before */
+    }
+    for (int k = 0; k < seens; k++) kinds += seen[k].blind > 0;
+    session->visited = seen;
+    session->visits = seens;
+    session->blind = blind->met;
+    session->kinds = kinds;
+    session->unmeasured = blind->failed;
+    return VES_OK;
+}
+
+/* The archive goes on to the next stage. */
 static ves_status hand_over(portfolio *p)
 {
     ves_session *session = p->session;
-    ves_archive *archive = &p->team.archive, *blind = &p->team.blind;
-    ves_end *end = ves_arena_take(&session->arena, (size_t)(archive->count + blind->count), sizeof *end);
-    if (!end) return VES_MEMORY;
-    session->rest = end + archive->count;
-    session->rests = 0;
-    for (int k = 0; k < blind->count; k++) {
-        int at = ves_archive_find(archive, &blind->end[k].point);
-        blind->end[k].blind = blind->end[k].hits;
-        if (at >= 0)
-            archive->end[at].blind += blind->end[k].hits;
-        else
-            session->rest[session->rests++] = blind->end[k];
-    }
-    for (int k = 0; k < archive->count; k++) end[k] = archive->end[k];
-    session->blind = blind->met;
-    session->kinds = blind->kinds;
+    ves_archive *archive = &p->team.archive;
+    VES_TRY(witness(p));
     if (!archive->count) return VES_OK; /* all were refused: what the stage began with stays */
-    session->end = end;
+    int at = ves_archive_find(archive, &p->refined);
+    bool same =
+        at >= 0 && !memcmp(archive->end[at].point.u, p->refined.u, (size_t)session->n * sizeof(double));
+    if (same) archive->end[at].halt = p->halt;
+    session->end = archive->end;
     session->ends = archive->count;
     return VES_OK;
 }

@@ -21,15 +21,26 @@ enum { VES_PROOFS_ROUND = 3, VES_PROOFS = 16, VES_PROOFS_KNOWN = 64 };
 
 typedef struct ves_session ves_session;
 
+/* Whether a descent's end is one: its slope has vanished, or its algorithm says that it has converged; it
+ * stopped at a slope that has not vanished, as at a kink; beside what cannot be measured; or its algorithm
+ * failed. */
+typedef enum ves_halt {
+    VES_HALT_UNKNOWN,
+    VES_HALT_REST,
+    VES_HALT_KINK,
+    VES_HALT_EDGE,
+    VES_HALT_LOST
+} ves_halt;
+
 /* An end of a stage: where a chain or a polish stopped. The next stage starts from the ends of the one
  * before. */
 typedef struct ves_end {
     ves_point point;
     bool saddle;
-    bool pass;    /* a saddle, and a descent from it ended lower */
-    bool stalled; /* at a slope that has not vanished: a kink, or no end at all */
-    long hits;    /* descents that a portfolio has seen end here; 0: none was counted */
-    long blind;   /* of these, from points drawn uniformly */
+    bool pass; /* a saddle, and a descent from it ended lower */
+    ves_halt halt;
+    long hits;  /* descents that ended here */
+    long blind; /* of these, from points drawn uniformly */
 } ves_end;
 
 /* One member's line to the evaluator. What it has been answered since it was flushed last stands in `said`,
@@ -104,9 +115,13 @@ struct ves_session {
     ves_annealing_report *annealing_log;
     int strategies;
     ves_strategy_report strategy[VES_STRATEGIES];
-    int rests; /* ends of the last portfolio that were not polished: they tell how often, not where */
-    ves_end *rest;
-    long blind, kinds; /* of the last portfolio: descents from points drawn uniformly; their distinct ends */
+
+    /* Of portfolios: where their descents have ended and, when a polish has gone on from there, where that ended:
+     * they tell how often, not where to begin. Of descents from points drawn uniformly: how many there were, their
+     * distinct ends, and how many more met nothing that could be measured. */
+    int visits;
+    ves_end *visited;
+    long blind, kinds, unmeasured;
 };
 
 ves_status ves_session_init(ves_session *session, const ves_search_problem *problem,

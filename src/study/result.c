@@ -252,8 +252,12 @@ static void strategies(const ves_run *run, ves_json *json)
 
 static void evidence(const ves_run *run, ves_json *json)
 {
-    static const char *const word[] = {"none",   "stopped",   "refused", "budget too short",
-                                       "frozen", "converged", "repeated"};
+    static const char *const word[] = {
+        [VES_TRUST_NONE] = "none",           [VES_TRUST_STOPPED] = "stopped",
+        [VES_TRUST_REFUSED] = "refused",     [VES_TRUST_SHORT] = "budget too short",
+        [VES_TRUST_EDGE] = "edge",           [VES_TRUST_KINK] = "kink",
+        [VES_TRUST_LOST] = "lost",           [VES_TRUST_FROZEN] = "frozen",
+        [VES_TRUST_CONVERGED] = "converged", [VES_TRUST_REPEATED] = "repeated"};
     const ves_evidence *e = &run->evidence;
     if (!e->sentence) return;
     ves_json_object(json, "evidence");
@@ -262,6 +266,7 @@ static void evidence(const ves_run *run, ves_json *json)
     ves_json_integer(json, "descents", e->descents);
     ves_json_integer(json, "minima", e->minima);
     ves_json_integer(json, "hits", e->hits);
+    ves_json_integer(json, "unmeasured", e->unmeasured);
     ves_json_number(json, "expected_minima", e->expected);
     ves_json_number(json, "unseen", e->unseen);
     ves_json_end(json, '}');

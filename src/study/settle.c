@@ -67,18 +67,23 @@ ves_status ves_settle_hits(const ves_optimum *old, int count, ves_arena *arena, 
 }
 
 /* The polish on the finer grid has counted no descents: those on the coarser one tell of the same optimum, or of
- * another. */
+ * another. How the polish ended is what is new; but what was refused or frozen stays so. */
 static ves_status evidence_keep(ves_study *s, const ves_evidence *before, const double *best)
 {
-    static const char *const other =
-        "converged, on the finer grid, to another optimum than the best of the coarser";
-    ves_run *run = s->run;
-    if (!before->descents || run->evidence.trust != VES_TRUST_CONVERGED) return VES_OK;
-    if (nearest(run, best) == 0)
-        run->evidence = *before;
-    else
-        run->evidence.sentence = ves_arena_text(s->arena, other, strlen(other));
-    return run->evidence.sentence ? VES_OK : ves_diag_fail(s->diag, VES_MEMORY);
+    ves_evidence *e = &s->run->evidence;
+    const ves_evidence now = *e;
+    if (!before->descents) return VES_OK;
+    const bool same = nearest(s->run, best) == 0, ends = now.trust == VES_TRUST_CONVERGED;
+    const bool stays = before->trust == VES_TRUST_REFUSED || before->trust == VES_TRUST_FROZEN;
+    if (same) *e = *before;
+    if (same && ends && stays) return VES_OK;
+    if (same) e->trust = ends && before->hits > 1 ? VES_TRUST_REPEATED : now.trust;
+    e->verdict = now.verdict;
+    e->sentence =
+        ves_arena_format(s->arena, "%.*s%s", now.verdict, now.sentence,
+                         same ? before->sentence + before->verdict
+                              : "; on the finer grid this is another optimum than the best of the coarser");
+    return e->sentence ? VES_OK : ves_diag_fail(s->diag, VES_MEMORY);
 }
 
 /* The optima, the best first, polished once more on the finer grid; what is reported is measured there. */
