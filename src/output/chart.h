@@ -6,12 +6,16 @@
 
 #include "vesica/diag.h"
 
+/* What stands at each point: CROSS without a line between them. */
+typedef enum ves_chart_mark { VES_MARK_NONE, VES_MARK_DOT, VES_MARK_CROSS } ves_chart_mark;
+
 typedef struct ves_chart_line {
     const char *name;
     int count;
     const double *x, *y;      /* [count]; points that are no finite numbers break the line */
     const double *low, *high; /* [count] a band about it, or NULL */
     bool stairs;              /* y holds from its x on */
+    ves_chart_mark mark;
 } ves_chart_line;
 
 /* An axis: what it shows, from where to where; logarithmic: both ends > 0. */

@@ -109,8 +109,12 @@ static ves_status convergence(charts *c, int bout)
             if (isfinite(band[e].y[k])) high = fmax(high, band[e].y[k]), low = fmin(low, band[e].y[k]);
             if (isfinite(band[e].low[k])) low = fmin(low, band[e].low[k]);
         }
-        c->line[e] = (ves_chart_line){s->entrant[e].name, VES_PROFILE_POINTS, band[e].x, band[e].y,
-                                      band[e].low,        band[e].high,       false};
+        c->line[e] = (ves_chart_line){.name = s->entrant[e].name,
+                                      .count = VES_PROFILE_POINTS,
+                                      .x = band[e].x,
+                                      .y = band[e].y,
+                                      .low = band[e].low,
+                                      .high = band[e].high};
     }
     chart_name(s->bout[bout].name, name);
     double bottom = pow(10, floor(log10(fmin(low, high / 10)))), top = pow(10, ceil(log10(high)));
