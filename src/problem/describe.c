@@ -177,6 +177,7 @@ void ves_describe_kind(ves_writer *writer, const ves_key *key)
                                            "formula of measures",
                                            "PATCH.u0 or PATCH.u1",
                                            "number, or list of two",
+                                           "mapping, or list of values",
                                            "later"};
     int kind = (int)key->kind;
     if (kind == VES_CHOICE) {
@@ -208,7 +209,7 @@ void ves_describe_default(ves_writer *writer, const ves_key *key)
         ves_write(writer, "required");
     else if (key->kind == VES_FLAG)
         ves_write(writer, "default %s", key->fallback != 0 ? "true" : "false");
-    else if (key->kind == VES_CHOICE) {
+    else if (key->kind == VES_CHOICE && !isnan(key->fallback)) {
         const char *word = key->words;
         for (int k = 0; k < (int)key->fallback; k++) word = strchr(word, '|') + 1;
         ves_write(writer, "default %.*s", (int)strcspn(word, "|"), word);

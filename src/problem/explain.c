@@ -113,8 +113,16 @@ static void entry_help(help *h, const ves_entry *entry, const char *path)
         if ((int)e->key.kind != VES_LATER) key_line(w, &e->key);
 }
 
-/* The stages of a search once more, in a suite. */
-static const char suite_stages[] = "suite.methods.search.";
+/* The stages of a search once more: told only to who asks for them there. */
+static bool is_again(const help *h, const char *path)
+{
+    static const char *const below[] = {"test.", "sweep.search.", "sweep.first.", "suite.methods.search."};
+    for (size_t k = 0; k < sizeof below / sizeof *below; k++) {
+        const size_t first = strcspn(below[k], ".");
+        if (!strncmp(path, below[k], strlen(below[k])) && strncmp(h->word, below[k], first)) return true;
+    }
+    return false;
+}
 
 static void walk(help *h, const ves_entry *table, const char *path)
 {
@@ -127,8 +135,7 @@ static void walk(help *h, const ves_entry *table, const char *path)
         h->writer.failed = h->writer.failed || w.failed;
         ves_memory_free(w.text);
         is_word(h, e->key.name);
-        bool again = (!strncmp(inner, "test.", 5) && strncmp(h->word, "test", 4)) || /* as without it */
-                     (!strncmp(inner, suite_stages, strlen(suite_stages)) && strncmp(h->word, "suite", 5));
+        bool again = is_again(h, inner);
         bool choice = e->key.kind == VES_CHOICE && ves_words_find(e->key.words, h->word) >= 0;
         if ((choice || is_path(h->word, inner)) && !(again && h->found)) entry_help(h, e, inner);
         if (*path && h->parent && is_path(h->parent, path) && !again) key_name(h, e->key.name);

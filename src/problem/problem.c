@@ -54,7 +54,7 @@ static void read_sections(ves_reader *reader, const ves_fields *root)
     static void (*const part[])(ves_reader *, const ves_fields *) = {
         ves_reader_slots,       ves_reader_curves, ves_reader_joins,    ves_reader_patches_section,
         ves_reader_joins_check, ves_reader_places, ves_reader_settings, ves_reader_measures,
-        ves_reader_goals,       ves_reader_search};
+        ves_reader_goals,       ves_reader_search, ves_reader_sweep};
     for (size_t k = 0; k < sizeof part / sizeof *part && reader->status != VES_MEMORY; k++)
         part[k](reader, root);
 }

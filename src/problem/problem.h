@@ -194,6 +194,34 @@ typedef struct ves_limit {
     ves_mark mark;
 } ves_limit;
 
+/* sweep: walks along the values of the first parameter, for each value of the second. */
+enum { VES_SWEEP_AXES = 2, VES_SWEEP_VALUES = 10000 };
+
+typedef struct ves_sweep_axis {
+    const char *name;
+    int parameter; /* its index */
+    int count;
+    const double *value; /* as the file orders them; those of the first axis rise or fall */
+} ves_sweep_axis;
+
+typedef struct ves_sweep_branch {
+    const char *name;
+    int sets;
+    const ves_override *set;
+} ves_sweep_branch;
+
+typedef struct ves_sweep_def {
+    ves_mark mark;
+    int axes;
+    ves_sweep_axis axis[VES_SWEEP_AXES];
+    bool forth, back; /* which ways the values of the first axis are walked along */
+    int branches;     /* 0: one without a name */
+    const ves_sweep_branch *branch;
+    ves_search_options search; /* of every point but the first of a walk */
+    bool begins;               /* first holds; else the first point of a walk is searched as the file says */
+    ves_search_options first;
+} ves_sweep_def;
+
 struct ves_problem {
     ves_arena arena;
     const char *path, *name, *title; /* name: the file's name without folder and ending */
@@ -232,6 +260,7 @@ struct ves_problem {
     const ves_expect_def *expect;
     ves_search_options test;           /* what `test:` overrides: budget and stages */
     const ves_expect_def *test_expect; /* replaces expect in a test run when given */
+    const ves_sweep_def *sweep;        /* NULL: none */
 };
 
 /* Loads a whole file, a little more than the reader takes at most; path is for messages. *text is to be freed

@@ -268,6 +268,9 @@ ves_symbol *ves_reader_symbols(ves_reader *reader, bool expect, int *count);
 void ves_reader_goals(ves_reader *reader, const ves_fields *root);
 void ves_reader_search(ves_reader *reader, const ves_fields *root);
 void ves_reader_stages(ves_reader *reader, const ves_node *node, ves_search_options *options);
+/* sweep.c; and the changes of a file under a key `set` */
+void ves_reader_sweep(ves_reader *reader, const ves_fields *root);
+const ves_override *ves_reader_overrides(ves_reader *reader, const ves_node *node, int *count);
 void ves_reader_seed(ves_reader *reader, const ves_node *node, uint64_t *seed);
 /* problem.c: is it a file of this format (its word `vesica`); complains of keys given twice */
 bool ves_reader_format(ves_reader *reader, const ves_node *root);

@@ -55,13 +55,16 @@ static void entries(ves_writer *w, const ves_entry *table)
     }
     if (any) ves_write(w, "\n");
     for (const ves_entry *e = table; e && e->key.name; e++) {
-        bool item = (int)e->key.kind == VES_LIST;
+        bool item = (int)e->key.kind == VES_LIST || (int)e->key.kind == VES_NAMED;
         const ves_entry *below = item && e->table ? e->table->table : e->table;
-        bool shown =
-            !strcmp(e->key.name, "apply") || !strcmp(e->key.name, "search") || !strcmp(e->key.name, "expect");
+        bool shown = !strcmp(e->key.name, "apply") || !strcmp(e->key.name, "search") ||
+                     !strcmp(e->key.name, "first") || !strcmp(e->key.name, "expect");
         if (!below || shown) continue;
-        ves_write(w, "%s%s of `%s`, for example `%s`:\n", item ? "Each " : "",
-                  item ? e->table->key.name : "Keys", e->key.name, item ? e->table->example : e->example);
+        if (item)
+            ves_write(w, "Each %s of `%s`: %s. For example `%s`:\n", e->table->key.name, e->key.name,
+                      e->table->key.about, e->table->example);
+        else
+            ves_write(w, "Keys of `%s`, for example `%s`:\n", e->key.name, e->example);
         entries(w, below);
     }
 }

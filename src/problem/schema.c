@@ -272,6 +272,37 @@ static const ves_entry test_keys[] = {
     {{"expect", KIND(VES_LIST), .about = "checks of a test run, instead of those of expect"}, "expect: [feasible]", check},
     END};
 
+static const ves_entry swept_keys[] = {
+    {{"from", VES_NUMBER, .required = true, .about = "the first value"}, "from: 0.5", NULL},
+    {{"to", VES_NUMBER, .required = true, .about = "the last value"}, "to: 1", NULL},
+    {{"step", VES_NUMBER, .fallback = NAN, .about = "from each value to the next; this or count"}, "step: 0.01", NULL},
+    {{"count", VES_COUNT, .min = 2, .max = VES_SWEEP_VALUES, .fallback = NAN, .about = "how many values, the first and the last included; this or step"}, "count: 51", NULL},
+    {{"walk", VES_CHOICE, .words = "up|down|both", .fallback = NAN, .about = "towards which values; both: two walks, which need not meet the same shapes. Unless given, from `from` to `to`"}, "walk: both", NULL},
+    END};
+
+static const ves_entry swept[] = {
+    {{"swept parameter", KIND(VES_SWEPT), .about = "the values of a constant under `parameters`: a range, a list, or a single one. The first parameter is walked along, each point begins at the best of its neighbour; for each value of the second there are walks of their own"}, "nu: {from: 0.5, to: 1, step: 0.01}", swept_keys},
+    END};
+
+static const ves_entry branch_setting[] = {
+    {{"setting", VES_TEXT, .about = "what --set would say: a variable's start, a parameter, or a key"}, "zn: 0.4", NULL},
+    END};
+
+static const ves_entry branch_keys[] = {
+    {{"set", KIND(VES_NAMED), .about = "changes of the file, as --set makes them"}, "set: {zn: 0.4, R: 1.3}", branch_setting},
+    END};
+
+static const ves_entry branch[] = {
+    {{"branch", KIND(VES_MAP), .about = "one family of shapes: where its walks begin"}, "oblate: {set: {zn: 0.4, R: 1.3}}", branch_keys},
+    END};
+
+static const ves_entry sweep_keys[] = {
+    {{"over", KIND(VES_NAMED), .required = true, .about = "one or two parameters and their values"}, "over: {nu: {from: 0.5, to: 1, count: 51}}", swept},
+    {{"branches", KIND(VES_NAMED), .about = "families of shapes that are walked each by itself; unless given, one, which begins where the file does"}, "branches: {oblate: {set: {zn: 0.4, R: 1.3}}, prolate: {}}", branch},
+    {{"search", KIND(VES_LIST), .words = "auto", .about = "the search at every point of a walk but its first, from the best of the point before; a polish unless given"}, "search: [{polish: {}}]", ves_schema_stage},
+    {{"first", KIND(VES_LIST), .words = "auto", .about = "the search at the first point of a walk; unless given, that of the file, or, with branches, which it might leave, that of all points"}, "first: [{anneal: {}}, {polish: {}}]", ves_schema_stage},
+    END};
+
 static const ves_entry root[] = {
     {{"vesica", VES_COUNT, .required = true, .about = "version of the format: 1"}, "vesica: 1", NULL},
     {{"title", VES_TEXT, .about = "one line for people"}, "title: Least-curvature surface between two rings", NULL},
@@ -297,9 +328,8 @@ static const ves_entry root[] = {
     {{"seed", KIND(VES_SEED), .fallback = 1, .about = "seed of the random numbers: same seed, same result"}, "seed: 7", NULL},
     {{"expect", KIND(VES_LIST), .about = "checks at the end of a run"}, "expect: [violation < 1e-6]", check},
     {{"test", KIND(VES_MAP), .about = "a smaller run for tests"}, "test: {evaluations: 500, expect: [feasible]}", test_keys},
+    {{"sweep", KIND(VES_MAP), .about = "what vesica sweep walks over: the best shape for each value of a parameter, each search begun at the best of the value before"}, "sweep: {over: {nu: {from: 0.5, to: 1, step: 0.01, walk: both}, c0: [0, 3]}}", sweep_keys},
     LATER("shell", "thin-shell analysis"),
-    LATER("sweep", "studies over parameters"),
-    LATER("branches", "studies along branches of solutions"),
     LATER("animate", "parameters that follow time"),
     END};
 

@@ -189,28 +189,14 @@ static const char *stem(task *t, const char *path)
     return ves_reader_memory(&t->reader, name) ? name : "";
 }
 
-static void read_settings(task *t, const ves_node *node, ves_bout *bout)
-{
-    if (!node) return;
-    if (node->kind != VES_NODE_MAP) {
-        ves_reader_error(&t->reader, VES_SYNTAX, node, "\"set\" must be a mapping {name: value, ...}");
-        return;
-    }
-    ves_override *set = ves_arena_take(arena_of(t), (size_t)node->count, sizeof *set);
-    if (!ves_reader_memory(&t->reader, set)) return;
-    for (int k = 0; k < node->count; k++)
-        if (ves_reader_word(&t->reader, node->item[k], "value"))
-            set[bout->sets++] = (ves_override){node->key[k]->text, node->item[k]->text};
-    bout->set = set;
-}
-
 static void read_file(task *t, const ves_node *node, const ves_fields *f, ves_bout bout)
 {
     const char *path = text_at(t, ves_fields_find(f, "file"), "file name");
     if (!path) return;
     bout.kind = VES_BOUT_FILE;
     bout.path = beside(t, path);
-    read_settings(t, ves_fields_find(f, "set"), &bout);
+    const ves_node *set = ves_fields_find(f, "set");
+    if (set) bout.set = ves_reader_overrides(&t->reader, set, &bout.sets);
     if (!bout.name) bout.name = stem(t, path);
     add_bout(t, node, bout);
 }

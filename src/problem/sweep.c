@@ -1,0 +1,268 @@
+/* sweep: what vesica sweep walks over. */
+#include <math.h>
+#include <string.h>
+
+#include "problem/reader.h"
+
+enum { UP, DOWN, BOTH }; /* the words of `walk`, in their order */
+
+/* A step that misses the last value by less than this part of itself was meant to meet it. */
+static const double MISS = 1e-6;
+
+typedef struct axes {
+    ves_reader *reader;
+    ves_sweep_def *sweep;
+} axes;
+
+static const ves_entry *table_of(const char *name)
+{
+    const ves_entry *sweep = ves_schema_find(ves_schema_root.table, "sweep");
+    return ves_schema_find(sweep->table, name)->table;
+}
+
+const ves_override *ves_reader_overrides(ves_reader *reader, const ves_node *node, int *count)
+{
+    *count = 0;
+    if (node->kind != VES_NODE_MAP) {
+        ves_reader_error(reader, VES_SYNTAX, node, "\"set\" must be a mapping {name: value, ...}");
+        return NULL;
+    }
+    ves_override *set = ves_arena_take(reader->arena, (size_t)node->count, sizeof *set);
+    if (!ves_reader_memory(reader, set)) return NULL;
+    for (int k = 0; k < node->count; k++)
+        if (ves_reader_word(reader, node->item[k], "value"))
+            set[(*count)++] = (ves_override){node->key[k]->text, node->item[k]->text};
+    return set;
+}
+
+/* --- values --- */
+
+/* A constant of the dimension that the parameter has. */
+static double value_read(axes *a, const ves_node *node, const char *name, ves_dim dim)
+{
+    const ves_key key = {.name = name, .kind = VES_NUMBER};
+    ves_dim *outer = a->reader->free;
+    a->reader->free = &dim;
+    double value = ves_reader_constant(a->reader, node, &key);
+    a->reader->free = outer;
+    return value;
+}
+
+static void list_read(axes *a, const ves_node *node, ves_sweep_axis *axis, ves_dim dim)
+{
+    const ves_node *const single[1] = {node};
+    bool list = node->kind == VES_NODE_LIST;
+    const ves_node *const *item = list ? node->item : single;
+    int count = list ? node->count : 1, before = a->reader->errors;
+    if (!count || count > VES_SWEEP_VALUES) {
+        ves_reader_error(a->reader, VES_RANGE, node, "\"%s\" needs 1 to %d values, got %d", axis->name,
+                         VES_SWEEP_VALUES, count);
+        return;
+    }
+    double *value = ves_arena_take(a->reader->arena, (size_t)count, sizeof *value);
+    if (!ves_reader_memory(a->reader, value)) return;
+    for (int k = 0; k < count; k++) value[k] = value_read(a, item[k], axis->name, dim);
+    axis->value = value;
+    axis->count = count;
+    bool walked = axis == a->sweep->axis && a->reader->errors == before;
+    for (int k = 1; walked && k < count; k++)
+        if (!((value[k] - value[k - 1]) * (value[1] - value[0]) > 0)) {
+            ves_reader_error(a->reader, VES_RANGE, item[k],
+                             "the values of \"%s\" must rise or fall: a walk goes from each to the next",
+                             axis->name);
+            return;
+        }
+}
+
+/* How many values a step makes; 0 after an error. */
+static int steps_count(axes *a, const ves_node *node, double from, double to, double step)
+{
+    double steps = fabs(to - from) / step, whole = round(steps);
+    if (whole >= VES_SWEEP_VALUES)
+        ves_reader_error(a->reader, VES_RANGE, node, "this step makes %.0f values, more than %d", whole + 1,
+                         VES_SWEEP_VALUES);
+    else if (whole < 1 || fabs(steps - whole) > MISS)
+        ves_reader_error(a->reader, VES_RANGE, node,
+                         "this step does not lead from \"from\" to \"to\": it fits in %.6g times", steps);
+    else
+        return (int)whole + 1;
+    return 0;
+}
+
+static int count_read(axes *a, const ves_node *node, const ves_fields *f, const ves_sweep_axis *ends,
+                      ves_dim dim)
+{
+    const ves_node *step = ves_fields_find(f, "step"), *count = ves_fields_find(f, "count");
+    const double from = ends->value[0], to = ends->value[1];
+    if (!step == !count) {
+        if (!ves_fields_excused(f, "step") && !ves_fields_excused(f, "count"))
+            ves_fields_one_of(a->reader, node, f, ends->name, "step", "count");
+        return 0;
+    }
+    int before = a->reader->errors;
+    if (count) {
+        long n = ves_reader_count(a->reader, count, ves_fields_field(f, "count")->key);
+        return a->reader->errors == before ? (int)n : 0;
+    }
+    double value = value_read(a, step, "step", dim);
+    if (a->reader->errors > before) return 0;
+    if (value > 0) return steps_count(a, step, from, to, value);
+    ves_reader_error(a->reader, VES_RANGE, step,
+                     "\"step\" must be > 0, got %g: the walk goes from \"from\" to \"to\"", value);
+    return 0;
+}
+
+/* Without a `walk` from the first to the last. */
+static void walk_read(axes *a, const ves_field *walk, const ves_sweep_axis *axis)
+{
+    ves_sweep_def *sweep = a->sweep;
+    if (!walk->node) return;
+    if (axis != sweep->axis) {
+        ves_reader_error(a->reader, VES_SYNTAX, walk->node, "\"walk\" goes with the first parameter only");
+        return;
+    }
+    int way = ves_reader_choice(a->reader, walk->node, walk->key);
+    bool rises = axis->value[1] > axis->value[0];
+    sweep->forth = way == BOTH || (way == UP) == rises;
+    sweep->back = way == BOTH || (way == UP) != rises;
+}
+
+static void range_read(axes *a, const ves_node *node, ves_sweep_axis *axis, ves_dim dim)
+{
+    ves_fields f;
+    const ves_entry *table = table_of("over")->table;
+    if (!ves_fields_read(a->reader, node, table, axis->name, &f)) return;
+    const ves_node *from = ves_fields_find(&f, "from"), *to = ves_fields_find(&f, "to");
+    int before = a->reader->errors;
+    if (!from || !to) return;
+    const double end[2] = {value_read(a, from, "from", dim), value_read(a, to, "to", dim)};
+    if (a->reader->errors > before) return;
+    if (end[0] == end[1]) {
+        ves_reader_error(a->reader, VES_RANGE, to, "\"from\" and \"to\" are the same: give \"%s\" alone",
+                         from->text);
+        return;
+    }
+    ves_sweep_axis ends = *axis;
+    ends.value = end;
+    int count = count_read(a, node, &f, &ends, dim);
+    if (!count) return;
+    double *value = ves_arena_take(a->reader->arena, (size_t)count, sizeof *value);
+    if (!ves_reader_memory(a->reader, value)) return;
+    for (int k = 0; k < count; k++)
+        value[k] =
+            (end[0] * (count - 1 - k) + end[1] * k) / (count - 1); /* 0.5, 0.51 ..., not 0.51 + 1e-16 */
+    axis->value = value;
+    axis->count = count;
+    walk_read(a, ves_fields_field(&f, "walk"), axis);
+}
+
+/* --- over --- */
+
+static int parameter_find(axes *a, const ves_node *word)
+{
+    const ves_problem *p = a->reader->problem;
+    const char **name = ves_arena_take(a->reader->arena, (size_t)p->parameters, sizeof *name);
+    if (!ves_reader_memory(a->reader, name)) return -1;
+    for (int k = 0; k < p->parameters; k++) {
+        name[k] = p->parameter[k].name;
+        if (!strcmp(name[k], word->text)) return k;
+    }
+    for (int k = 0; k < p->variables; k++)
+        if (!strcmp(p->variable[k].name, word->text)) {
+            ves_reader_error(a->reader, VES_NAME, word,
+                             "\"%s\" is a variable, which a search finds: a sweep goes over parameters",
+                             word->text);
+            return -1;
+        }
+    ves_reader_error(a->reader, VES_NAME, word, "no parameter \"%.80s\"%s", word->text,
+                     ves_reader_suggestion(a->reader, word->text, name, p->parameters));
+    return -1;
+}
+
+static void axis_read(axes *a, const ves_node *word, const ves_node *node)
+{
+    const ves_problem *p = a->reader->problem;
+    ves_sweep_axis *axis = &a->sweep->axis[a->sweep->axes++];
+    *axis = (ves_sweep_axis){.name = word->text, .parameter = parameter_find(a, word)};
+    const ves_formula *formula = axis->parameter < 0 ? NULL : p->parameter[axis->parameter].formula;
+    if (!formula) return;
+    if (ves_reader_varies(a->reader, formula))
+        ves_reader_error(a->reader, VES_RANGE, word,
+                         "\"%s\" follows variables: a sweep goes over constant parameters", word->text);
+    else if (node->kind == VES_NODE_MAP)
+        range_read(a, node, axis, ves_formula_dim(formula));
+    else
+        list_read(a, node, axis, ves_formula_dim(formula));
+}
+
+static void over_read(axes *a, const ves_node *node)
+{
+    if (!node) return;
+    if (node->kind != VES_NODE_MAP || !node->count || node->count > VES_SWEEP_AXES) {
+        ves_reader_error(a->reader, VES_SYNTAX, node,
+                         "\"over\" must be a mapping of one or two parameters, {nu: {from: 0.5, to: 1, "
+                         "count: 51}}");
+        return;
+    }
+    for (int k = 0; k < node->count; k++) axis_read(a, node->key[k], node->item[k]);
+}
+
+/* --- branches --- */
+
+static bool swept(const ves_sweep_def *sweep, const char *name)
+{
+    for (int k = 0; k < sweep->axes; k++)
+        if (!strcmp(sweep->axis[k].name, name)) return true;
+    return false;
+}
+
+static void branch_read(axes *a, const ves_named *named, ves_sweep_branch *branch)
+{
+    ves_fields f;
+    *branch = (ves_sweep_branch){.name = named->text};
+    if (!ves_fields_read(a->reader, named->value, table_of("branches")->table, "branch", &f)) return;
+    const ves_node *set = ves_fields_find(&f, "set");
+    if (!set) return;
+    branch->set = ves_reader_overrides(a->reader, set, &branch->sets);
+    for (int k = 0; set->kind == VES_NODE_MAP && k < set->count; k++)
+        if (swept(a->sweep, set->key[k]->text))
+            ves_reader_error(a->reader, VES_NAME, set->key[k], "\"%s\" is swept: a branch cannot set it",
+                             set->key[k]->text);
+}
+
+static void branches_read(axes *a, const ves_node *node)
+{
+    ves_names names;
+    if (!node) return;
+    ves_names_read(a->reader, node, "branch", false, &names);
+    ves_sweep_branch *branch = ves_arena_take(a->reader->arena, (size_t)names.count, sizeof *branch);
+    if (!ves_reader_memory(a->reader, branch)) return;
+    for (int k = 0; k < names.count; k++) branch_read(a, &names.name[k], &branch[k]);
+    a->sweep->branch = branch;
+    a->sweep->branches = names.count;
+}
+
+void ves_reader_sweep(ves_reader *reader, const ves_fields *root)
+{
+    const ves_node *node = ves_fields_find(root, "sweep");
+    ves_fields f;
+    if (!node ||
+        !ves_fields_read(reader, node, ves_schema_find(ves_schema_root.table, "sweep")->table, "sweep", &f))
+        return;
+    ves_sweep_def *sweep = ves_arena_take(reader->arena, 1, sizeof *sweep);
+    if (!ves_reader_memory(reader, sweep)) return;
+    axes a = {reader, sweep};
+    *sweep = (ves_sweep_def){.mark = ves_reader_mark(reader, node), .forth = true};
+    sweep->search = ves_search_options_default();
+    sweep->search.stages = 1;
+    sweep->search.stage[0] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = ves_polish_default()};
+    over_read(&a, ves_fields_find(&f, "over"));
+    branches_read(&a, ves_fields_find(&f, "branches"));
+    const ves_node *search = ves_fields_find(&f, "search");
+    const ves_node *first = ves_fields_find(&f, "first");
+    if (search) ves_reader_stages(reader, search, &sweep->search);
+    sweep->first = sweep->search;
+    sweep->begins = first || sweep->branches > 0;
+    if (first) ves_reader_stages(reader, first, &sweep->first);
+    reader->problem->sweep = sweep;
+}
