@@ -55,6 +55,10 @@ typedef struct ves_run_options {
      * with, and end as if it had never been interrupted. One that is done is only gone through again. */
     bool resume;
     const ves_team *team; /* NULL: alone */
+
+    /* Stages instead of those of the file, with its seed; NULL: those of the file. Without files only: a folder
+     * does not keep them. */
+    const ves_search_options *search;
 } ves_run_options;
 
 /* One line under `expect:`. */
@@ -146,7 +150,7 @@ typedef struct ves_run_hooks {
 } ves_run_hooks;
 
 /* options, hooks, diag: NULL for none. diag gets warnings and errors. VES_OK: see ending, feasible, passed.
- * VES_RANGE: a negative number among the options, a budget beyond 2^53, or an unknown trace.
+ * VES_RANGE: a negative number among the options, a budget beyond 2^53, an unknown trace, or `search` with files.
  * VES_IO or VES_MEMORY with a result: it holds, but its folder could not be filled. VES_USAGE, VES_IO without
  * a result: its folder cannot be made, or another process works in it; nothing was searched. VES_STALE: the
  * journal in a folder to go on with is of another run or another version. Whenever there is no result, *run is NULL.

@@ -6,6 +6,7 @@
 #include "output/output.h"
 #include "study/open.h"
 #include "study/run.h"
+#include "study/saved.h"
 #include "vesica/objective.h"
 
 /* Exit codes: a contract with scripts. */
@@ -32,6 +33,7 @@ typedef struct app_options {
     double view[2];      /* radians: azimuth, height */
     const char *decides; /* an option that a resumed run has decided already, or NULL */
     const char *start, *resume, *out, *patch, *points, *to, *unit, *png, *colour, *add;
+    const char *over; /* what is under `sweep.over`, or NULL */
     ves_progress_style progress;
     ves_trace trace;
 } app_options;
@@ -63,6 +65,7 @@ extern const app_command app_commands[];
 
 int app_run(app *a);
 int app_bench(app *a);
+int app_sweep(app *a);
 int app_journal(app *a);
 int app_eval(app *a);
 int app_check(app *a);
@@ -108,6 +111,12 @@ const char *app_called(void);
 /* help.c */
 void app_help_command(const app_command *command, FILE *out);
 const app_command *app_command_find(const char *name);
+
+/* cmd_run.c: loads the measures that a folder was made with, unless they are given anew. */
+ves_status app_plugins_again(app *a, const ves_saved *saved);
+
+/* cmd_run.c: what mpirun starts together works as one; rank 0 speaks for all. */
+int app_together(app *a, int (*work)(app *a));
 
 /* screen.c: the result of a run, for people. */
 void app_screen_run(const ves_run *run, FILE *out);

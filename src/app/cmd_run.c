@@ -116,8 +116,7 @@ static int work(app *a, const ves_opened *opened, const ves_run_options *options
 
 /* --- going on --- */
 
-/* The measures that the run was made with, unless they are given anew. */
-static ves_status plugins(app *a, const ves_saved *saved)
+ves_status app_plugins_again(app *a, const ves_saved *saved)
 {
     app_options *o = &a->options;
     if (!o->plugins) {
@@ -126,7 +125,7 @@ static ves_status plugins(app *a, const ves_saved *saved)
         VES_TRY(app_plugins_load(a));
     }
     if (o->plugins == saved->plugins) return ves_saved_compare(saved, o->plugin, a->diag);
-    app_fail(a, VES_USAGE, "the run \"%s\" was made with %d plugins, not %d", saved->folder, saved->plugins,
+    app_fail(a, VES_USAGE, "\"%s\" was made with %d plugins, not %d", saved->folder, saved->plugins,
              o->plugins);
     return VES_USAGE;
 }
@@ -142,7 +141,7 @@ static int resume(app *a)
             "--resume takes from the folder \"%s\" how the run was begun: %s%s cannot be given with it",
             folder, a->operands ? "" : "--", a->operands ? a->operand[0] : a->options.decides);
     ves_status status = ves_saved_read(folder, &a->arena, &saved, a->diag);
-    if (status == VES_OK) status = plugins(a, &saved);
+    if (status == VES_OK) status = app_plugins_again(a, &saved);
     if (status == VES_OK) status = ves_saved_open(&saved, a->measure, &opened, a->diag);
     app_say(a);
     if (status != VES_OK) return app_code(status);
@@ -173,12 +172,11 @@ static int run_one(app *a)
     return code;
 }
 
-/* What mpirun starts together works on one run; rank 0 speaks for all. */
-int app_run(app *a)
+int app_together(app *a, int (*alone)(app *a))
 {
     ves_ranks ranks;
     int rank;
-    if (ves_ranks_asked(&rank) == 1) return run_one(a);
+    if (ves_ranks_asked(&rank) == 1) return alone(a);
     bool muted = rank == 0 || (freopen("/dev/null", "w", stdout) && freopen("/dev/null", "w", stderr));
     if (!muted) return APP_MISSING;
     if (a->operands && !strcmp(a->operand[0], "-"))
@@ -187,7 +185,12 @@ int app_run(app *a)
     ves_status status = ves_ranks_begin(&ranks, a->diag);
     if (status != VES_OK) return app_code(status);
     a->team = &ranks.team;
-    int code = run_one(a);
+    int code = alone(a);
     ves_ranks_end(&ranks, !a->torn); /* one that fails alone would be waited for */
     return code;
+}
+
+int app_run(app *a)
+{
+    return app_together(a, run_one);
 }

@@ -15,6 +15,16 @@ const app_command app_commands[] = {
      "your "
      "own\n"
      "takes part. Exit code: 0 when all runs are done, 130 when interrupted: --resume goes on."},
+    {"sweep", "sweep FILE | sweep --resume DIR",
+     "search for the best shape at each value of a parameter, from neighbour to neighbour; into a numbered "
+     "folder",
+     0, 1, PROBLEM "|over|seed|jobs|out|progress|resume", app_sweep,
+     "What is swept over stands under `sweep` in the file (vesica explain sweep), or in --over; "
+     "docs/sweep.md tells "
+     "what is\n"
+     "written. Exit code: 0 when every value has a feasible best, 1 when one has none; 130 when interrupted: "
+     "--resume\n"
+     "goes on, as after a kill, and ends with the same bytes."},
     {"check", "check FILE", "read a problem file, measure its start design, say what a run will do", 1, 1,
      PROBLEM, app_check,
      "Exit code: 0 when the file is in order and its start design can be measured and passes its checks; 1 "

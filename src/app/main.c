@@ -76,7 +76,6 @@ const char *app_called(void)
 static const char *later(const char *word)
 {
     static const char *const words[][2] = {
-        {"sweep", "studies over parameters"},
         {"stability", "the stability of a result"},
         {"report", "report pages"},
         {"compare", "comparing runs"},

@@ -45,6 +45,51 @@ static bool take_set(app *a, const char *value)
     return name || wrong(a, "%s", ves_status_text(VES_MEMORY));
 }
 
+/* A number as a value of YAML, quoted where it could be read as more than one. */
+static bool over_word(app *a, const char *text, size_t length, char **word)
+{
+    static const char safe[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.+-_*/^() ";
+    *word = ves_arena_text(&a->arena, text, length);
+    bool plain = *word && strspn(*word, safe) == length && *text != '-' && *text != '*';
+    double number;
+    if (*word && !plain && !ves_text_number(*word, &number))
+        *word = strchr(*word, '\'') ? NULL : ves_arena_format(&a->arena, "'%s'", *word);
+    return *word;
+}
+
+/* FROM..TO:COUNT, or values with commas between them, as `sweep.over` would have it. */
+static const char *over_values(app *a, const char *text)
+{
+    const char *dots = strstr(text, ".."), *colon = strrchr(text, ':');
+    char *from, *to, *list = NULL;
+    long count;
+    if (dots && dots > text && colon > dots + 2 && whole(colon + 1, 2, VES_SWEEP_VALUES, &count) &&
+        over_word(a, text, (size_t)(dots - text), &from) &&
+        over_word(a, dots + 2, (size_t)(colon - dots - 2), &to))
+        return ves_arena_format(&a->arena, "{from: %s, to: %s, count: %ld}", from, to, count);
+    if (dots || colon || !*text) return NULL;
+    for (const char *at = text; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        if (!over_word(a, at, strcspn(at, ","), &from) || !*from) return NULL;
+        list = list ? ves_arena_format(&a->arena, "%s, %s", list, from) : from;
+        if (!list) return NULL;
+    }
+    return ves_arena_format(&a->arena, "[%s]", list);
+}
+
+static bool take_over(app *a, const char *value)
+{
+    app_options *o = &a->options;
+    const char *equals = strchr(value, '='), *values = equals ? over_values(a, equals + 1) : NULL;
+    const char *before = o->over ? o->over : "", *gap = o->over ? ", " : "";
+    if (!values || equals == value)
+        return wrong(a,
+                     "--over needs NAME=FROM..TO:COUNT or NAME=VALUE,VALUE,..., as --over nu=0.5..1:11, got "
+                     "\"%s\"",
+                     value);
+    o->over = ves_arena_format(&a->arena, "%s%s%.*s: %s", before, gap, (int)(equals - value), value, values);
+    return o->over || wrong(a, "%s", ves_status_text(VES_MEMORY));
+}
+
 static bool take_seed(app *a, const char *value)
 {
     long seed;
@@ -179,6 +224,7 @@ FLAG(help)
 /* clang-format off */
 static const option table[] = {
     {"set", "NAME=VALUE", "instead of what the file says: the start of a variable, a parameter, or a path of keys (patches.wall.operator.a)", take_set},
+    {"over", "NAME=FROM..TO:COUNT", "which parameter takes which values, instead of what `sweep` in the file says; or NAME=VALUE,VALUE,...; twice: the first is walked along, for each value of the second", take_over},
     {"start", "RUN", "begin at the best design of that run", take_start},
     {"seed", "N", "of the random numbers; same seed, same result", take_seed},
     {"evaluations", "N", "budget of the search", take_evaluations},
@@ -203,14 +249,14 @@ static const option table[] = {
     {"reference", NULL, "the reference chapter of the manual instead, in Markdown", take_reference},
     {"suite", NULL, "of suite files (vesica bench)", take_suite},
     {"journal", "all|none", "whether the run keeps all evaluations, to be resumed and read (vesica journal)", take_journal},
-    {"resume", "RUN", "go on in the folder of a run or a benchmark that was interrupted or killed; it ends as one that was not", take_resume},
+    {"resume", "RUN", "go on in the folder of a run, a benchmark or a sweep that was interrupted or killed; it ends as one that was not", take_resume},
     {"help", NULL, "this text", take_help},
     {"add", "NAME={...}", "with --resume: one more method, as under `methods`", take_add},
 };
 /* clang-format on */
 
 /* What a resumed run has decided when it was begun. */
-static const char DECIDED[] = "set|start|seed|evaluations|out|trace|journal|test|no-files";
+static const char DECIDED[] = "set|start|over|seed|evaluations|out|trace|journal|test|no-files";
 
 enum { KNOWN = sizeof table / sizeof *table };
 

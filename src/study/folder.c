@@ -128,8 +128,12 @@ char *ves_folder_free(const char *stem, const char *ending, ves_arena *arena)
 /* .NAME.PID-TRY.ENDING, of a file NAME that a run writes. */
 static bool is_unfinished(const char *entry)
 {
-    static const char *const names[] = {"problem.yaml", "run.json", "result.json", "times.json",
-                                        "start.vtp",    "best.vtp", "best.png",    "log.txt"};
+    static const char *const names[] = {"problem.yaml", "run.json",  "result.json",  "times.json",
+                                        "start.vtp",    "best.vtp",  "best.png",     "log.txt",
+                                        "sweep.json",   "sweep.csv", "points.jsonl", "times.jsonl",
+                                        "sweep.png",    "shapes.pvd"};
+    size_t digits = *entry == '.' ? strspn(entry + 1, "0123456789") : 0;
+    if (digits && !strncmp(entry + 1 + digits, ".vtp.", 5)) return true; /* a shape of a sweep */
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
         size_t length = strlen(names[k]);
         if (*entry == '.' && !strncmp(entry + 1, names[k], length) && entry[length + 1] == '.' &&

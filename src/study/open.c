@@ -87,16 +87,14 @@ static ves_status best_read(const char *run, ves_arena *arena, best *out, ves_di
 
 /* --- its numbers as overrides --- */
 
-/* A number with a dimension must say it: 0.0345 m; an angle that the file gives in degrees too. */
-static const char *with_unit(const ves_node *number, const ves_variable *v, ves_arena *arena)
+const char *ves_study_quantity(const char *number, ves_dim dim, const ves_shown *shown, ves_arena *arena)
 {
     char unit[48];
-    ves_dim_text(v->dim, unit);
-    if (!strcmp(v->shown.unit, "deg")) return ves_arena_format(arena, "%s rad", number->text);
-    if (!strcmp(v->shown.unit, "%"))
-        return ves_arena_format(arena, "(%s)", number->text); /* a formula needs none */
-    if (v->dim.any || !strcmp(unit, "1")) return number->text;
-    return ves_arena_format(arena, "%s %s", number->text, unit);
+    ves_dim_text(dim, unit);
+    if (!strcmp(shown->unit, "deg")) return ves_arena_format(arena, "%s rad", number);
+    if (!strcmp(shown->unit, "%")) return ves_arena_format(arena, "(%s)", number); /* a formula needs none */
+    if (dim.any || !strcmp(unit, "1")) return number;
+    return ves_arena_format(arena, "%s %s", number, unit);
 }
 
 static bool is_number(const ves_node *node)
@@ -152,7 +150,7 @@ static ves_status best_apply(const best *b, const ves_problem *problem, ves_aren
             return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE,
                                 "the run \"%s\" has no number for \"%s\"", b->run, v->name);
         ves_override *o = &override[(*count)++];
-        *o = (ves_override){v->name, with_unit(number, v, arena)};
+        *o = (ves_override){v->name, ves_study_quantity(number->text, v->dim, &v->shown, arena)};
         if (!o->value) return ves_diag_fail(diag, VES_MEMORY);
     }
     return VES_OK;

@@ -22,6 +22,10 @@ ves_status ves_study_open(const char *path, const ves_open_options *options, ves
                           ves_diag *diag);
 void ves_study_close(ves_opened *opened);
 
+/* A number in SI units as --set needs it: with its dimension, 0.0345 m; an angle that the file gives in degrees
+ * too. NULL: out of memory. */
+const char *ves_study_quantity(const char *number, ves_dim dim, const ves_shown *shown, ves_arena *arena);
+
 /* A file of up to 64 MB, terminated, in the arena. VES_IO: errno says why; 0: it is none, or larger. */
 ves_status ves_study_load(const char *path, ves_arena *arena, char **text, size_t *length);
 

@@ -69,6 +69,10 @@ static void set_up(ves_study *s)
     ves_run *run = s->run;
     const ves_run_options *o = s->options;
     s->search = o->test ? s->problem->test : s->problem->search;
+    if (o->search) {
+        s->search = *o->search;
+        s->search.seed = s->problem->search.seed;
+    }
     if (o->seeded) s->search.seed = o->seed;
     if (o->evaluations > 0) s->search.evaluations = o->evaluations;
     run->problem = s->problem;
@@ -339,11 +343,13 @@ static ves_status work(ves_study *s)
 static ves_status options_check(const ves_run_options *o, ves_diag *diag)
 {
     if (o->evaluations >= 0 && o->evaluations <= 1L << 53 && o->jobs >= 0 &&
-        (unsigned)o->trace <= VES_TRACE_NONE)
+        (unsigned)o->trace <= VES_TRACE_NONE && !(o->search && o->files))
         return VES_OK;
-    return ves_diag_add(diag, VES_ERROR, VES_RANGE, (ves_mark){0},
-                        "options of a run: evaluations %ld must be 0 to 2^53, jobs %d >= 0, trace %d 0 to %d",
-                        o->evaluations, o->jobs, (int)o->trace, (int)VES_TRACE_NONE);
+    return ves_diag_add(
+        diag, VES_ERROR, VES_RANGE, (ves_mark){0},
+        "options of a run: evaluations %ld must be 0 to 2^53, jobs %d >= 0, trace %d 0 to %d, "
+        "search without files",
+        o->evaluations, o->jobs, (int)o->trace, (int)VES_TRACE_NONE);
 }
 
 ves_status ves_run_create(const ves_problem *problem, const ves_run_options *options,

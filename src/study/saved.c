@@ -8,7 +8,6 @@
 #include "base/diag.h"
 #include "base/text.h"
 #include "output/file.h"
-#include "output/output.h"
 #include "study/folder.h"
 #include "study/load.h"
 
@@ -17,7 +16,7 @@ static const ves_mark NOWHERE = {0};
 
 /* --- writing --- */
 
-static ves_status plugins_write(const ves_problem *problem, ves_arena *arena, ves_json *json)
+ves_status ves_saved_plugins_write(const ves_problem *problem, ves_arena *arena, ves_json *json)
 {
     ves_status status = VES_OK;
     ves_json_array(json, "plugins");
@@ -49,7 +48,7 @@ static ves_status options_write(const ves_run *run, const ves_run_options *o, ve
     ves_json_flag(&json, "test", o->test);
     ves_json_text(&json, "trace", trace);
     ves_json_flag(&json, "journal", !o->forget);
-    ves_status status = plugins_write(run->problem, arena, &json);
+    ves_status status = ves_saved_plugins_write(run->problem, arena, &json);
     ves_json_end(&json, '}');
     return status;
 }
@@ -116,8 +115,10 @@ char *ves_saved_head(const ves_run *run, const ves_run_options *options, ves_are
 
 /* --- reading --- */
 
-static ves_status plugins_read(const ves_node *list, ves_arena *arena, ves_saved *saved)
+ves_status ves_saved_plugins_read(const ves_node *list, ves_arena *arena, const ves_saved_plugin **out,
+                                  int *count)
 {
+    *count = 0;
     if (!list || list->kind != VES_NODE_LIST || !list->count) return VES_OK;
     ves_saved_plugin *plugin = ves_arena_take(arena, (size_t)list->count, sizeof *plugin);
     if (!plugin) return VES_MEMORY;
@@ -127,8 +128,8 @@ static ves_status plugins_read(const ves_node *list, ves_arena *arena, ves_saved
         plugin[k].sum = (unsigned long)ves_json_double(list->item[k], "crc", 0);
         if (!plugin[k].given || !plugin[k].path) return VES_SYNTAX;
     }
-    saved->plugin = plugin;
-    saved->plugins = list->count;
+    *out = plugin;
+    *count = list->count;
     return VES_OK;
 }
 
@@ -146,7 +147,9 @@ static ves_status fill(const ves_node *root, const char *folder, ves_arena *aren
                                        .resume = true,
                                        .forget = !ves_json_true(root, "journal")};
     bool whole = seed && saved->problem && saved->options.evaluations >= 0 && (int)saved->options.trace >= 0;
-    return whole ? plugins_read(ves_node_find(root, "plugins"), arena, saved) : VES_SYNTAX;
+    return whole ? ves_saved_plugins_read(ves_node_find(root, "plugins"), arena, &saved->plugin,
+                                          &saved->plugins)
+                 : VES_SYNTAX;
 }
 
 ves_status ves_saved_read(const char *folder, ves_arena *arena, ves_saved *saved, ves_diag *diag)

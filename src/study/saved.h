@@ -3,6 +3,7 @@
 #ifndef VES_STUDY_SAVED_H
 #define VES_STUDY_SAVED_H
 
+#include "output/output.h"
 #include "study/open.h"
 #include "vesica/run.h"
 
@@ -17,6 +18,11 @@ typedef struct ves_saved {
     int plugins;
     const ves_saved_plugin *plugin;
 } ves_saved;
+
+/* The plugins of a problem, as a list under the key "plugins", and back. */
+ves_status ves_saved_plugins_write(const ves_problem *problem, ves_arena *arena, ves_json *json);
+ves_status ves_saved_plugins_read(const ves_node *list, ves_arena *arena, const ves_saved_plugin **plugin,
+                                  int *count);
 
 /* run.json, when a run begins. */
 ves_status ves_saved_write(const ves_run *run, const ves_run_options *options, ves_arena *arena,

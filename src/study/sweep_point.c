@@ -1,0 +1,312 @@
+#include "study/sweep_point.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/diag.h"
+#include "base/text.h"
+#include "output/output.h"
+#include "study/folder.h"
+#include "study/run.h"
+
+enum { SENTENCE = 400, MESSAGE = 2000 };
+
+/* What may be left of the slope where a budget ended: in a flat valley the last digits take for ever. */
+static const double CONVERGED = 1e-3;
+
+/* A point while it is searched. */
+typedef struct search {
+    const ves_sweep_task *task;
+    int index;
+    ves_sweep_point *point;
+    const double *from;
+    ves_arena *kept, scratch;
+    ves_diag *diag; /* of this point alone */
+} search;
+
+/* --- the problem there --- */
+
+static ves_status value_set(const ves_problem *p, const ves_sweep_axis *axis, int k, ves_arena *arena,
+                            ves_override *set)
+{
+    const ves_parameter *q = &p->parameter[axis->parameter];
+    char digits[32];
+    ves_text_shortest(axis->value[k], digits);
+    const char *number = ves_arena_text(arena, digits, strlen(digits));
+    *set = (ves_override){axis->name, NULL};
+    if (number) set->value = ves_study_quantity(number, ves_formula_dim(q->formula), &q->shown, arena);
+    return set->value ? VES_OK : VES_MEMORY;
+}
+
+/* What makes the problem at a place out of the file: the branch, then the parameters. index -1: the branch alone. */
+static ves_status settings(const ves_sweep *sweep, int branch, int index, ves_arena *arena, ves_override *set,
+                           int *count)
+{
+    const ves_sweep_def *def = sweep->def;
+    *count = 0;
+    if (def->branches)
+        for (int k = 0; k < def->branch[branch].sets; k++) set[(*count)++] = def->branch[branch].set[k];
+    if (index < 0) return VES_OK;
+    const int at[VES_SWEEP_AXES] = {ves_sweep_place(sweep, index), sweep->walk[index / sweep->count].second};
+    for (int k = 0; k < def->axes; k++)
+        VES_TRY(value_set(sweep->problem, &def->axis[k], at[k], arena, &set[(*count)++]));
+    return VES_OK;
+}
+
+static int settings_most(const ves_sweep *sweep, int branch)
+{
+    const ves_sweep_def *def = sweep->def;
+    return (def->branches ? def->branch[branch].sets : 0) + VES_SWEEP_AXES + sweep->problem->variables;
+}
+
+/* Every point is told in the same columns. */
+static bool fits(const ves_problem *a, const ves_problem *b)
+{
+    bool same = a->variables == b->variables && a->unknowns == b->unknowns && a->measures == b->measures &&
+                a->constraints == b->constraints && !a->objective == !b->objective &&
+                a->maximize == b->maximize;
+    for (int k = 0; same && k < a->slots && k < a->variables + a->unknowns; k++)
+        same = !strcmp(ves_problem_slot(a, k), ves_problem_slot(b, k));
+    for (int k = 0; same && k < a->measures; k++) same = !strcmp(a->measure[k].name, b->measure[k].name);
+    for (int k = 0; same && k < a->constraints; k++)
+        same = a->constraint[k].relation == b->constraint[k].relation;
+    return same;
+}
+
+static ves_status read(const ves_sweep_task *task, const ves_override *set, int count, ves_problem **problem,
+                       ves_diag *diag)
+{
+    const ves_problem *base = task->sweep->problem;
+    const ves_read_options options = {.overrides = count,
+                                      .override = set,
+                                      .plugin = task->options->plugin,
+                                      .plugin_file = base->plugin_file,
+                                      .inner = true};
+    ves_status status =
+        ves_problem_read_text(base->path, base->text, strlen(base->text), &options, problem, diag);
+    if (status != VES_OK || fits(base, *problem)) return status;
+    ves_problem_destroy(*problem);
+    *problem = NULL;
+    return ves_diag_add(diag, VES_ERROR, VES_USAGE, (ves_mark){0},
+                        "what is set changes which variables, measures and constraints there are: that is "
+                        "another problem, not a point of this sweep");
+}
+
+ves_status ves_sweep_branch_check(const ves_sweep_task *task, int branch, ves_diag *diag)
+{
+    ves_arena arena = {0};
+    ves_problem *problem = NULL;
+    int count = 0;
+    ves_override *set = ves_arena_take(&arena, (size_t)settings_most(task->sweep, branch), sizeof *set);
+    ves_status status = set ? settings(task->sweep, branch, -1, &arena, set, &count) : VES_MEMORY;
+    if (status == VES_OK)
+        status = read(task, set, count, &problem, diag);
+    else
+        ves_diag_fail(diag, status);
+    ves_problem_destroy(problem);
+    ves_arena_destroy(&arena);
+    return status;
+}
+
+/* Appends where the variables begin: what the last good point found, in the ranges that hold here. */
+static ves_status start_set(search *s, const ves_problem *here, ves_override *set, int *count)
+{
+    for (int k = 0; k < here->variables; k++) {
+        const ves_variable *v = &here->variable[k];
+        char digits[32];
+        ves_text_shortest(fmin(fmax(s->from[k], v->min), v->max), digits);
+        const char *number = ves_arena_text(&s->scratch, digits, strlen(digits));
+        ves_override *o = &set[(*count)++];
+        *o = (ves_override){v->name, NULL};
+        if (number) o->value = ves_study_quantity(number, v->dim, &v->shown, &s->scratch);
+        if (!o->value) return VES_MEMORY;
+    }
+    return VES_OK;
+}
+
+/* Read twice where it begins at the neighbour's best: ranges may depend on the parameter. */
+static ves_status read_here(search *s, ves_problem **problem)
+{
+    const ves_sweep *sweep = s->task->sweep;
+    const int branch = sweep->walk[s->index / sweep->count].branch;
+    int count = 0;
+    ves_override *set = ves_arena_take(&s->scratch, (size_t)settings_most(sweep, branch), sizeof *set);
+    if (!set) return VES_MEMORY;
+    VES_TRY(settings(sweep, branch, s->index, &s->scratch, set, &count));
+    VES_TRY(read(s->task, set, count, problem, s->diag));
+    if (!s->from) return VES_OK;
+    ves_problem *first = *problem; /* whose names are set */
+    *problem = NULL;
+    ves_status status = start_set(s, first, set, &count);
+    if (status == VES_OK) status = read(s->task, set, count, problem, s->diag);
+    ves_problem_destroy(first);
+    return status;
+}
+
+/* --- what came of it --- */
+
+static ves_status lose(search *s, const char *text)
+{
+    s->point->good = false;
+    s->point->reason = ves_arena_text(s->kept, text, strcspn(text, "\n"));
+    return s->point->reason ? VES_OK : VES_MEMORY;
+}
+
+/* The first error, without the line that it quotes. */
+static ves_status lose_by_diag(search *s, ves_status status)
+{
+    char text[MESSAGE];
+    for (int k = 0; k < ves_diag_count(s->diag); k++) {
+        if (ves_diag_severity(s->diag, k) != VES_ERROR) continue;
+        ves_diag_text(s->diag, k, text, sizeof text);
+        return lose(s, text);
+    }
+    return lose(s, ves_status_text(status));
+}
+
+static ves_status lose_unmeasured(search *s, const ves_run *run)
+{
+    char text[SENTENCE];
+    ves_status why = run->start.status;
+    long most = 0;
+    for (int k = 0; k < run->failures; k++)
+        if (run->failure[k].count > most) most = run->failure[k].count, why = run->failure[k].status;
+    snprintf(text, sizeof text, "nothing could be measured: %s", ves_status_text(why));
+    return lose(s, text);
+}
+
+static ves_status lose_infeasible(search *s, const ves_run *run)
+{
+    const ves_problem *p = run->problem;
+    char text[SENTENCE];
+    int worst = 0;
+    for (int k = 1; k < p->constraints; k++)
+        if (run->best.side[k].violation > run->best.side[worst].violation) worst = k;
+    snprintf(text, sizeof text, "infeasible: %.200s is violated by %.2g of its size",
+             p->constraint[worst].text, run->best.side[worst].violation);
+    return lose(s, text);
+}
+
+static ves_status judge(search *s, const ves_run *run)
+{
+    s->point->good = true;
+    if (!run->any) return lose_unmeasured(s, run);
+    if (!run->best.feasible) return lose_infeasible(s, run);
+    if (!run->feasible) return lose(s, "the best did not pass its checks");
+    if (run->searched && run->ending == VES_ENDED_BUDGET &&
+        !(run->kkt.known && run->kkt.residual <= CONVERGED))
+        return lose(s, "not converged: the budget was too short");
+    return VES_OK;
+}
+
+static void columns_fill(const ves_sweep *sweep, const ves_run *run, double *column)
+{
+    const ves_problem *p = run->problem;
+    const ves_design *d = &run->best;
+    const int *first = sweep->first;
+    column[first[VES_SWEEP_OBJECTIVE]] = d->objective;
+    column[first[VES_SWEEP_VIOLATION]] = d->violation;
+    memcpy(column + first[VES_SWEEP_VARIABLE], d->slot,
+           sizeof *column * (size_t)(p->variables + p->unknowns));
+    memcpy(column + first[VES_SWEEP_MEASURE], d->measure, sizeof *column * (size_t)p->measures);
+    for (int k = 0; k < p->constraints; k++) {
+        column[first[VES_SWEEP_VALUE] + k] = d->side[k].value;
+        column[first[VES_SWEEP_LIMIT] + k] = d->side[k].limit;
+        if (run->kkt.known) column[first[VES_SWEEP_PRICE] + k] = run->kkt.multiplier[k];
+    }
+}
+
+static ves_status notes_take(search *s, const ves_run *run)
+{
+    s->point->note = ves_arena_take(s->kept, (size_t)run->notes, sizeof *s->point->note);
+    if (!s->point->note) return VES_MEMORY;
+    for (int k = 0; k < run->notes; k++) {
+        s->point->note[k] = ves_arena_text(s->kept, run->note[k], strlen(run->note[k]));
+        if (!s->point->note[k]) return VES_MEMORY;
+        s->point->notes++;
+    }
+    return VES_OK;
+}
+
+static ves_status shape_write(search *s, const ves_run *run)
+{
+    const ves_plan_options grid = {{run->quadrature[0], run->quadrature[1]}};
+    ves_plan *plan = NULL;
+    ves_figure *figure = NULL;
+    char name[48];
+    snprintf(name, sizeof name, "shapes/%04d.vtp", s->index);
+    char *path = ves_folder_path(s->task->sweep->folder, name, &s->scratch);
+    if (!path) return VES_MEMORY;
+    ves_status status = ves_plan_create(run->problem, &grid, &plan, NULL);
+    if (status == VES_OK) status = ves_plan_figure(plan, run->best.x, 0, 0, &figure, NULL);
+    if (status == VES_OK) status = ves_format_find("vtp")->write(figure, path, s->diag);
+    ves_figure_destroy(figure);
+    ves_plan_destroy(plan);
+    return status;
+}
+
+static ves_status take(search *s, const ves_run *run)
+{
+    if (run->ending == VES_ENDED_STOPPED) return VES_INTERRUPTED;
+    s->point->evaluations = run->evaluations;
+    s->point->gradients = run->gradients;
+    VES_TRY(judge(s, run));
+    VES_TRY(notes_take(s, run));
+    s->point->feasible = run->any && run->best.feasible;
+    if (run->any) columns_fill(s->task->sweep, run, s->point->column);
+    return s->point->good ? shape_write(s, run) : VES_OK;
+}
+
+/* --- the search --- */
+
+static ves_status go(search *s, const ves_problem *problem)
+{
+    const ves_sweep_task *t = s->task;
+    const ves_sweep_def *def = t->sweep->def;
+    const ves_run_options options = {.seeded = t->options->seeded,
+                                     .seed = t->options->seed,
+                                     .jobs = t->jobs,
+                                     .search = s->from       ? &def->search
+                                               : def->begins ? &def->first
+                                                             : NULL};
+    const ves_run_hooks hooks = {.stopped = t->hooks->stopped, .data = t->hooks->data};
+    ves_run *run = NULL;
+    ves_status status = ves_run_create(problem, &options, &hooks, &run, s->diag);
+    if (run) status = take(s, run);
+    ves_run_destroy(run);
+    return status;
+}
+
+/* What no other place would be spared. */
+static bool is_fault(ves_status status)
+{
+    return status == VES_MEMORY || status == VES_IO || status == VES_FAULT || status == VES_INTERRUPTED;
+}
+
+static ves_status find(search *s)
+{
+    const int columns = s->task->sweep->first[VES_SWEEP_GROUPS];
+    ves_problem *problem = NULL;
+    s->point->column = ves_arena_take(s->kept, (size_t)columns, sizeof *s->point->column);
+    if (!s->point->column) return VES_MEMORY;
+    for (int k = 0; k < columns; k++) s->point->column[k] = NAN;
+    ves_status status = read_here(s, &problem);
+    if (status == VES_OK) status = go(s, problem);
+    ves_problem_destroy(problem);
+    return status == VES_OK || is_fault(status) ? status : lose_by_diag(s, status);
+}
+
+ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, const double *from, ves_arena *arena,
+                                ves_diag *diag)
+{
+    search s = {.task = task, .index = index, .from = from, .kept = arena, .diag = diag};
+    s.point = &task->sweep->point[index];
+    *s.point = (ves_sweep_point){.done = false};
+    double begin = ves_study_clock();
+    ves_status status = find(&s);
+    s.point->wall = ves_study_clock() - begin;
+    s.point->done = status == VES_OK;
+    ves_arena_destroy(&s.scratch);
+    return status;
+}

@@ -1,0 +1,20 @@
+/* What the points of a sweep say together, and the files that show it. */
+#ifndef VES_STUDY_SWEEP_REPORT_H
+#define VES_STUDY_SWEEP_REPORT_H
+
+#include "output/output.h"
+#include "study/sweep.h"
+
+/* Which ends at each place are the same, and which is the best. VES_OK or VES_MEMORY. */
+ves_status ves_sweep_compare(ves_sweep *sweep);
+
+/* What `vesica sweep --json` says; inside an object. */
+void ves_sweep_json(const ves_sweep *sweep, ves_json *json);
+
+/* points.jsonl, times.jsonl, sweep.csv, sweep.png, shapes.pvd. */
+ves_status ves_sweep_report_write(const ves_sweep *sweep, ves_diag *diag);
+
+/* At how many places two walks of one second value end at different optima; the first and the last of them. */
+int ves_sweep_apart(const ves_sweep *sweep, int walk, int other, int *first, int *last);
+
+#endif
