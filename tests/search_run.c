@@ -368,6 +368,29 @@ Test(search_run, options_out_of_range_are_refused)
     ves_search_result_destroy(NULL);
 }
 
+/* Budgets too small for a portfolio go into one descent, all of them: more never ends higher. */
+Test(search_run, a_small_budget_is_one_descent)
+{
+    given g = problem_rosenbrock(4);
+    g.gradients = true;
+    g.data = &g;
+    double before = HUGE_VAL;
+    for (long budget = 2; budget < 16 * (g.n + 2); budget++) {
+        ves_search_options o = ves_search_options_default();
+        o.evaluations = budget;
+        ves_search_result *r;
+        cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
+        cr_expect(r->value <= before, "budget %ld: %g after %g", budget, r->value, before);
+        cr_expect(r->evaluations >= budget - budget / 20 || r->value < 1e-12, "%ld of %ld: %s",
+                  r->evaluations, budget, r->stop);
+        cr_expect(r->notes > 0 && strstr(r->note[0], budget > 2 ? "one descent" : "no evaluations"), "%s",
+                  r->notes ? r->note[0] : "");
+        before = r->value;
+        ves_search_result_destroy(r);
+    }
+    cr_expect(before < 1e-12, "%g", before);
+}
+
 /* A violation that is left out is the largest of the constraints; budgets of the whole search are shared by
  * the stages. */
 Test(search_run, budget_of_the_whole_search_is_shared)
@@ -492,7 +515,7 @@ Test(search_run, a_tiny_budget_is_told_as_it_is)
             budget < 3 ? "the budget allows no more than the start" : "the budget of evaluations is spent";
         cr_expect(strstr(r->stop, want) != NULL, "budget %ld: got \"%s\", want \"%s\"", budget, r->stop,
                   want);
-        cr_expect(told(r, "left no evaluations for stage 1"));
+        cr_expect(told(r, budget < 3 ? "left no evaluations for stage 1" : "one descent"));
         ves_search_result_destroy(r);
     }
     given g = problem_can;

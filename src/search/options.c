@@ -150,13 +150,24 @@ static long asked(const ves_stage *stage)
 }
 
 enum { AUTO_STARTS = 16 }; /* polished in the end */
+enum {
+    FEW = 16
+}; /* times n + 2: less of a budget is for one descent, which a portfolio would only cut short */
 
 /* A portfolio, and a last polish of the best of its ends, each of which a descent has been to already. */
-static void automatic(const ves_search_problem *problem, const ves_search_options *options, ves_stage *stage)
+static void automatic(ves_session *session, const ves_search_options *options)
 {
     ves_polish polish = {.starts = AUTO_STARTS};
-    long whole = options->evaluations, usual = polish_budget(problem, &polish, AUTO_STARTS);
+    ves_stage *stage = session->stage;
+    long whole = options->evaluations, usual = polish_budget(session->problem, &polish, AUTO_STARTS);
+    if (whole && whole < FEW * ((long)session->n + 2)) {
+        session->lone = true;
+        session->stages = 1;
+        stage[0] = (ves_stage){.kind = VES_STAGE_POLISH, .polish.evaluations = whole};
+        return;
+    }
     if (whole) polish.evaluations = whole / 10 < usual ? whole / 10 : usual;
+    session->stages = 2;
     stage[0] =
         (ves_stage){.kind = VES_STAGE_AUTO, .automatic.evaluations = whole ? whole - polish.evaluations : 0};
     stage[1] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = polish};
@@ -168,10 +179,7 @@ void ves_search_complete(ves_session *session, const ves_search_options *options
     const ves_search_problem *problem = session->problem;
     session->stages = options->stages;
     memcpy(session->stage, options->stage, sizeof session->stage);
-    if (!options->stages) {
-        session->stages = 2;
-        automatic(problem, options, session->stage);
-    }
+    if (!options->stages) automatic(session, options);
     long sum = 0;
     int ends = 1 + problem->others;
     for (int k = 0; k < session->stages; k++) {

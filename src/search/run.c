@@ -29,6 +29,11 @@ static ves_status work(ves_session *session)
         if (ves_session_over(session)) return session->fault;
         long budget = ves_search_share(session, k);
         if (budget > 0) {
+            if (session->lone)
+                ves_session_note(session,
+                                 "the budget of %ld evaluations is for one descent from the start: other "
+                                 "minima were not looked for",
+                                 session->budget);
             VES_TRY(stage_run(session, k, budget));
             continue;
         }

@@ -76,6 +76,7 @@ struct ves_session {
     ves_status fault;
 
     int stages, stage_index;
+    bool lone; /* the budget is for one descent, not for a portfolio */
     ves_stage stage[VES_STAGES];
     bool grows[VES_STAGES]; /* the stage has no budget of its own */
     bool saves[VES_STAGES]; /* nobody has given it a budget: what it can do without goes back */
