@@ -9,7 +9,8 @@
 
 #pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
 
-static const char *const algorithm[] = {"slsqp", "mma", "ccsa", "cobyla", "bobyqa", "sbplx", "auglag"};
+static const char *const algorithm[] = {"slsqp",  "mma",    "ccsa",  "lbfgs",
+                                        "cobyla", "bobyqa", "sbplx", "auglag"};
 
 enum { ALGORITHMS = sizeof algorithm / sizeof algorithm[0] };
 
@@ -492,7 +493,7 @@ static ves_status overflowing(void *data, int worker, const ves_ask *ask, ves_ve
 
 Test(polish, an_algorithm_that_loses_its_way_is_stopped_and_told)
 {
-    const char *const by[] = {"slsqp", "mma", "ccsa"};
+    const char *const by[] = {"slsqp", "mma", "ccsa", "lbfgs"};
     for (int k = 0; k < 3; k++) {
         given g = {.evaluate = overflowing,
                    .n = 2,

@@ -26,11 +26,12 @@ static ves_status in_units(void *data, int worker, const ves_ask *ask, ves_verdi
 
 /* By every algorithm and by auto; told in other units together with its tolerance, by powers of 2: then not even
  * a rounding may differ. */
-enum { WAYS = 8 };
+enum { WAYS = 9 };
 
 static ves_search_result *searched(const given *problem, int way, bool gradients, double unit)
 {
-    static const char *const by[WAYS] = {NULL, "slsqp", "mma", "ccsa", "cobyla", "bobyqa", "sbplx", "auglag"};
+    static const char *const by[WAYS] = {NULL,     "slsqp",  "mma",   "ccsa",  "lbfgs",
+                                         "cobyla", "bobyqa", "sbplx", "auglag"};
     measured s = {problem, {unit, unit, unit}};
     given g = *problem;
     g.evaluate = in_units;

@@ -95,7 +95,7 @@ bool ves_search_choice(ves_slot slot, int index, ves_choice *choice);
 /* NLopt local search on scaled quantities: variables in [0, 1], objective over its largest slope,
  * constraints over theirs. 0 (NULL, false) is the default of everything. */
 typedef struct ves_polish {
-    const char *algorithm; /* slsqp mma ccsa cobyla bobyqa sbplx auglag; NULL: by gradients and constraints */
+    const char *algorithm; /* slsqp mma ccsa lbfgs cobyla bobyqa sbplx auglag; NULL: by gradients and constraints */
     long evaluations;      /* budget of the stage, proofs too; 0: from the number of variables */
     double x_tolerance;    /* relative to the range; 0: 1e-9 */
     double f_tolerance;    /* relative; 0: 1e-12 */

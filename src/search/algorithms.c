@@ -13,6 +13,9 @@ static const ves_algorithm list[] = {
      "conservative convex separable approximation (Svanberg 2002); equalities and opposite inequalities "
      "through auglag",
      true, true, false},
+    {"lbfgs",
+     "limited-memory BFGS (Nocedal 1980, by Luksan): its own time grows like n; constraints through auglag",
+     true, false, false},
     {"cobyla", "linear models (Powell 1994); the default with constraints and without gradients", false, true,
      true},
     {"bobyqa",
@@ -36,8 +39,9 @@ static nlopt_algorithm plain(const char *name)
     static const struct {
         const char *name;
         nlopt_algorithm id;
-    } table[] = {{"slsqp", NLOPT_LD_SLSQP},   {"mma", NLOPT_LD_MMA},       {"ccsa", NLOPT_LD_CCSAQ},
-                 {"cobyla", NLOPT_LN_COBYLA}, {"bobyqa", NLOPT_LN_BOBYQA}, {"sbplx", NLOPT_LN_SBPLX}};
+    } table[] = {{"slsqp", NLOPT_LD_SLSQP}, {"mma", NLOPT_LD_MMA},       {"ccsa", NLOPT_LD_CCSAQ},
+                 {"lbfgs", NLOPT_LD_LBFGS}, {"cobyla", NLOPT_LN_COBYLA}, {"bobyqa", NLOPT_LN_BOBYQA},
+                 {"sbplx", NLOPT_LN_SBPLX}};
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
         if (!strcmp(table[k].name, name)) return table[k].id;
     return NLOPT_LN_COBYLA;

@@ -13,6 +13,7 @@ enum { RUNS = 5, CHOICES = 3 };
  * times each until it yields passes 300); steps for one dual problem, where NLopt itself allows ten times
  * that. */
 enum { HANG = 2000, DUAL_STEPS = 10000 };
+enum { PAIRS = 20 }; /* of steps and slopes that lbfgs keeps; unless told, NLopt takes ten megabytes */
 
 static const double difference = 3e-8;    /* step in u: about sqrt(rounding) */
 static const double proportional = 1e-12; /* exact slopes that differ by so little are those of one thing */
@@ -386,6 +387,7 @@ static nlopt_result set_up(ves_descent *d, double step, double factor)
     if (code > 0) code = tolerances(d, d->opt, factor);
     if (code > 0 && !d->recipe.gradient) code = nlopt_set_initial_step1(d->opt, fmin(step, 0.4 * d->reach));
     if (code > 0 && d->recipe.dual) code = nlopt_set_param(d->opt, "dual_maxeval", DUAL_STEPS);
+    if (code > 0 && d->recipe.id == NLOPT_LD_LBFGS) code = nlopt_set_vector_storage(d->opt, PAIRS);
     if (code > 0 && d->inequalities)
         code = nlopt_add_inequality_mconstraint(d->opt, (unsigned)d->inequalities, inequalities, d,
                                                 limits(d, d->inequality, d->inequalities));

@@ -91,6 +91,9 @@ const char *ves_descent_sentence(const ves_descent *descent);
  * VES_INTERRUPTED also when the budget is spent; VES_NO_NUMBER for a u that is none: nothing was asked. */
 ves_status ves_descent_look(ves_descent *descent, const double *u, bool slopes);
 
+/* quick.c: how descents go that only have to tell where they lead. slopes: by exact gradients. */
+ves_polish ves_descent_quick(const ves_session *session, bool slopes);
+
 /* Evaluations that one quick descent may take: it has arrived long before, or is lost. */
 long ves_descent_usual(int n, bool slopes);
 

@@ -9,6 +9,24 @@ enum { STRIDES = 20, WINDOWS = 30 };
 
 static const double stride = 0.05, flatter = 0.3; /* of the box; of the slope before */
 
+/* slsqp pays for its own O(n^3) in each step, and takes about twice the steps on rugged ground (docs/methods/hop.md);
+ * lbfgs knows no constraints. */
+ves_polish ves_descent_quick(const ves_session *session, bool slopes)
+{
+    ves_polish quick = {.f_tolerance = 1e-10};
+    if (session->m) {
+        quick.algorithm = slopes ? "slsqp" : "cobyla";
+        quick.x_tolerance = 1e-8;
+    } else if (slopes) {
+        quick.algorithm = "lbfgs";
+        quick.x_tolerance = 1e-5;
+    } else {
+        quick.algorithm = session->n < 2 ? "cobyla" : "bobyqa";
+        quick.x_tolerance = 3e-4;
+    }
+    return quick;
+}
+
 long ves_descent_usual(int n, bool slopes)
 {
     return 100 + (slopes ? 20 : 60) * (long)n;

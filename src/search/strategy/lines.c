@@ -49,9 +49,7 @@ static void *create(ves_team *team, uint32_t stream)
     lines *l = ves_arena_take(arena, 1, sizeof *l);
     if (!l) return NULL;
     *l = (lines){.team = team, .session = session, .stream = stream, .samples = SAMPLES};
-    l->options = (ves_polish){.algorithm = ves_search_algorithm(session->problem, &l->options),
-                              .x_tolerance = 1e-4,
-                              .f_tolerance = 1e-10};
+    l->options = ves_descent_quick(session, session->problem->gradients);
     l->line = ves_arena_take(arena, n, sizeof *l->line);
     l->asker = ves_arena_take(arena, n, sizeof *l->asker);
     l->order = ves_arena_take(arena, n, sizeof *l->order);

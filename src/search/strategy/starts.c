@@ -38,9 +38,8 @@ static void *create(ves_team *team, uint32_t stream)
     starts *s = ves_arena_take(&session->arena, 1, sizeof *s);
     if (!s) return NULL;
     *s = (starts){.team = team, .session = session, .stream = stream};
-    s->options = (ves_polish){.algorithm = ves_search_algorithm(session->problem, &s->options),
-                              .x_tolerance = session->problem->gradients ? 1e-8 : 1e-5,
-                              .f_tolerance = 1e-10};
+    s->options = ves_descent_quick(session, session->problem->gradients);
+    s->options.x_tolerance = session->problem->gradients ? 1e-8 : 1e-5;
     for (int k = 0; k < WIDTH; k++) {
         task *t = &s->task[k];
         if (!ves_descent_create(&t->descent, session, k, &s->options, 0)) return NULL;
