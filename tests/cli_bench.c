@@ -209,9 +209,9 @@ Test(cli_bench, ends_with_a_program_that_does_not_listen, .timeout = 120)
     write_file("deaf.py", DEAF);
     write_file("d.yaml", "vesica: 1\nsuite: deaf\nproblems: [{function: sphere, n: 2}]\nseeds: 1\n"
                          "budget: {per_dimension: 1e9, most: 1e9}\n"
-                         "methods: {deaf: {program: [python3, ./deaf.py], seconds: 0.5}}\n");
+                         "methods: {deaf: {program: [python3, ./deaf.py], seconds: 4}}\n");
     expect(vesica(NULL, "bench d.yaml --out deaf"), 0, NULL, NULL, "deaf");
-    cr_expect(failed_with("deaf/runs.jsonl", "deaf", "the program read nothing for 0.5 s") == 1);
+    cr_expect(failed_with("deaf/runs.jsonl", "deaf", "the program read nothing for 4 s") == 1);
     write_file("s.yaml", "vesica: 1\nsuite: deaf\nproblems: [{function: sphere, n: 2}]\nseeds: 1\n"
                          "budget: {per_dimension: 1e9, most: 1e9}\n"
                          "methods: {deaf: {program: [python3, ./deaf.py]}}\n");
