@@ -16,7 +16,7 @@ ves_polish ves_descent_quick(const ves_session *session, bool slopes)
     ves_polish quick = {.f_tolerance = 1e-10};
     if (session->m) {
         quick.algorithm = slopes ? "slsqp" : "cobyla";
-        quick.x_tolerance = 1e-8;
+        quick.x_tolerance = slopes ? 1e-8 : 1e-5;
     } else if (slopes) {
         quick.algorithm = "lbfgs";
         quick.x_tolerance = 1e-5;

@@ -16,10 +16,11 @@ enum { FALLS = 16, TRIES = 24, OTHERS = 6 };
 
 enum { WIDTH = 4, KERNELS = 4, COORDINATES = 0, ALL = 1, DIFFERENCE = 2, BLIND = 3 };
 
-static const double forget = 0.97;                         /* of what kernels have earned, each round */
-static const double decades = 1.5;                         /* of widths below the range */
-static const double first_patience = 16, impatience = 1.2; /* hops without gain; grows with each turn */
-static const double alike = 1e-6;                          /* relative: values of one minimum */
+static const double forget = 0.97; /* of what kernels have earned, each round */
+static const double decades = 1.5; /* of widths below the range */
+/* Hops without gain, which grow with each turn. Constraints leave few basins: hops fall back into the same one. */
+static const double first_patience = 16, among_constraints = 2, impatience = 1.2;
+static const double alike = 1e-6; /* relative: values of one minimum */
 static const double first_step = 0.06;
 static const double at_minima = 0.005, at_random = 0.1; /* first steps of descents without gradients */
 
@@ -62,8 +63,11 @@ static void *create(ves_team *team, uint32_t stream)
     ves_session *session = team->session;
     hop *h = ves_arena_take(&session->arena, 1, sizeof *h);
     if (!h) return NULL;
-    *h = (hop){
-        .team = team, .session = session, .stream = stream, .step = first_step, .patience = first_patience};
+    *h = (hop){.team = team,
+               .session = session,
+               .stream = stream,
+               .step = first_step,
+               .patience = session->m ? among_constraints : first_patience};
     h->slopes = session->problem->gradients;
     h->quick = ves_descent_quick(session, h->slopes);
     for (int k = 0; k < WIDTH; k++) {
