@@ -12,10 +12,11 @@
 #define PI 3.14159265358979323846
 
 /* Of all tori, the Willmore energy is least for R = sqrt(2) r: 2 pi^2. A thin one needs fewer nodes. */
-#define TORUS                                                                                                \
+#define TORI                                                                                                 \
     "vesica: 1\nvariables: {R: [1.1, 3, 5]}\npatches:\n  t:\n    surface: {formula: [\"(R + "                \
     "cos(u))*cos(v)\", \"(R + cos(u))*sin(v)\", \"sin(u)\"]}\n    domain: {u: [0, 2*pi], v: [0, 2*pi]}\n"    \
-    "shape: {closed: true}\nmeasures: {hh: {integral: \"H^2\"}}\nminimize: hh\n"
+    "shape: {closed: true}\nmeasures: {hh: {integral: \"H^2\"}}\n"
+#define TORUS TORI "minimize: hh\n"
 
 #define CHAINS "search: [{anneal: {chains: 16}}, {polish: {}}]\n"
 
@@ -68,6 +69,26 @@ Test(settle, the_grid_is_chosen_again_at_the_best)
     cr_expect(a->evaluations == b->evaluations && a->gradients == b->gradients && a->notes == b->notes);
     finish(&one);
     finish(&two);
+}
+
+/* The last polish counts no descents of its own, but it is the one that tells of the slope: here it ends at a kink. */
+Test(settle, the_verdict_is_that_of_the_finer_grid_with_the_counts_of_the_coarser)
+{
+#define STARTS "search: [{auto: starts}, {polish: {}}]\n"
+    static const char *const text[] = {TORUS STARTS, TORI "minimize: hh + 30*abs(R - 1.4)\n" STARTS};
+    static const ves_trust trust[] = {VES_TRUST_REPEATED, VES_TRUST_KINK};
+    for (int k = 0; k < 2; k++) {
+        trial t = run_with(text[k], &(ves_run_options){.jobs = 1, .evaluations = 2000});
+        const ves_evidence *e = &t.run->evidence;
+        cr_expect(noted(t.run, "chosen at the best"), "%d x %d", t.run->quadrature[0], t.run->quadrature[1]);
+        cr_expect(e->trust == trust[k] && e->hits > 1 && e->descents >= e->hits, "%d: %s", e->trust,
+                  e->sentence);
+        cr_expect(strstr(e->sentence, "independent descents ended there") &&
+                      !strstr(e->sentence, "no independent"),
+                  "%s", e->sentence);
+        cr_expect(k == 0 || fabs(t.run->best.x[0] - 1.4) < 1e-6, "%g", t.run->best.x[0]);
+        finish(&t);
+    }
 }
 
 Test(settle, a_search_that_cannot_go_on_says_which_grid_to_give)

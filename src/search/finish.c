@@ -37,10 +37,10 @@ static ves_status between(ves_asker *asker, const ves_point *a, const ves_point 
 }
 
 /* Two ends of the same value, far apart, are one optimum when the caller knows them to be one design, or when
- * the objective is flat between them: they differ only in variables that it does not feel. Flat is no higher than the
- * ends, and no lower than ends of one optimum may be, at multiples of the golden section: where optima repeat
- * themselves evenly no simple part of the way is between two of them, and k of these never come nearer to one than
- * 1 / (3 k). */
+ * the objective is flat between them: they differ only in variables that it does not feel. Flat is no higher than
+ * the ends, and no lower than ends of one optimum may be, at multiples of the golden section: where optima lie
+ * evenly a simple part of the way leads to one of them, but with k steps between the two ends the golden section
+ * stays a third of a step, over k, away from each. */
 static ves_status flat(ves_asker *asker, const ves_point *a, const ves_point *b, ves_point *point, bool *same)
 {
     ves_session *session = asker->session;
