@@ -106,6 +106,11 @@ Test(evidence, a_kink_is_no_convergence)
     cr_expect(strstr(r->stop, "kink") && r->kkt.residual > 0.9, "%s", r->stop);
     says(r, VES_TRUST_KINK, "sbplx or cobyla");
     ves_search_result_destroy(r);
+    ves_search_options alone = o; /* no polish looks at the slope */
+    alone.stage[0] = (ves_stage){.kind = VES_STAGE_AUTO};
+    r = badly(KINK, true, &alone);
+    says(r, VES_TRUST_KINK, "independent descents ended there");
+    ves_search_result_destroy(r);
     const ves_search_options plain = only_polish("cobyla"); /* needs no slopes: it is there */
     r = badly(KINK, true, &plain);
     says(r, VES_TRUST_CONVERGED, "converged");

@@ -45,6 +45,12 @@ static ves_trust local(const ves_session *session)
  * that is a part of the largest tells that this is none of the ends that descents come to. */
 static const double gone = 1e-6, steep = 0.01; /* of the residual */
 
+/* A portfolio spends its budget, though its descents have ended. */
+static bool broken_off(const ves_session *session)
+{
+    return session->ending == VES_ENDED_BUDGET && session->stage[session->stages - 1].kind != VES_STAGE_AUTO;
+}
+
 /* What speaks against an end that seems to have converged. */
 static ves_trust doubt(const ves_session *session, const ves_witness *w, ves_trust trust)
 {
@@ -57,7 +63,7 @@ static ves_trust doubt(const ves_session *session, const ves_witness *w, ves_tru
         return w->residual < gone ? trust : VES_TRUST_LOST;
     case VES_HALT_UNKNOWN:
         if (!(w->residual > steep)) return trust;
-        return session->ending == VES_ENDED_BUDGET ? VES_TRUST_SHORT : VES_TRUST_KINK;
+        return broken_off(session) ? VES_TRUST_SHORT : VES_TRUST_KINK;
     default:
         return trust;
     }

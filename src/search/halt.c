@@ -12,7 +12,8 @@ ves_halt ves_descent_halt(const ves_descent *d)
     if (ves_descent_spent(d) || d->hopeless) return VES_HALT_UNKNOWN;
     if (d->beside) return VES_HALT_EDGE;
     bool failed = d->code < 0 && d->code != NLOPT_ROUNDOFF_LIMITED;
-    return d->lost || failed ? VES_HALT_LOST : VES_HALT_REST;
+    if (d->lost || failed) return VES_HALT_LOST;
+    return d->recipe.gradient && d->session->problem->gradients ? VES_HALT_UNKNOWN : VES_HALT_REST;
 }
 
 const char *ves_descent_sentence(const ves_descent *d)

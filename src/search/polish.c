@@ -111,11 +111,10 @@ static ves_status advance(task *t)
     if (above >= 0 && !ves_descent_spent(&t->descent)) t->sides[above]--;
     if (above >= 0) acquit(t, above);
     end->halt = ves_descent_halt(&t->descent);
-    bool unchecked = !t->checks && t->descent.recipe.gradient && session->problem->gradients;
-    if (unchecked && end->halt == VES_HALT_REST) end->halt = VES_HALT_UNKNOWN;
     if (!t->checks || ves_descent_spent(&t->descent)) return VES_OK;
     VES_TRY(ves_saddle_check(&t->saddle, &t->descent, &end->point, &end->saddle));
     if (t->saddle.edge >= 0) note_edge(t);
+    if (end->halt == VES_HALT_UNKNOWN) end->halt = VES_HALT_REST;
     if (t->saddle.running) end->halt = VES_HALT_EDGE;
     bool stalled = t->saddle.stalled && !t->descent.beside;
     if (stalled && end->point.verdict.violation <= session->tolerance) end->halt = VES_HALT_KINK;

@@ -21,8 +21,8 @@ enum { VES_PROOFS_ROUND = 3, VES_PROOFS = 16, VES_PROOFS_KNOWN = 64 };
 
 typedef struct ves_session ves_session;
 
-/* Whether a descent's end is one: its slope has vanished, or its algorithm says that it has converged; it
- * stopped at a slope that has not vanished, as at a kink; beside what cannot be measured; or its algorithm
+/* Whether a descent's end is one: nobody has looked at the slope; it has vanished or, of an algorithm that needs
+ * none, converged; it has not vanished, as at a kink; it lies beside what cannot be measured; the algorithm
  * failed. */
 typedef enum ves_halt {
     VES_HALT_UNKNOWN,
