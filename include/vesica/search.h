@@ -35,8 +35,8 @@ typedef struct ves_search_problem {
     const double *const *other; /* [others][n] inside the box */
     const bool *equality; /* [m] true: constraint == 0; false: constraint <= 0. NULL: all inequalities */
     double tolerance;     /* feasible: violation <= tolerance; 0: 1e-6 */
-    bool gradients;       /* evaluate answers VES_WANT_GRADIENT exactly */
-    int workers;          /* how many threads may call evaluate at once, >= 1; 0: 1 */
+    bool gradients; /* evaluate answers VES_WANT_GRADIENT exactly. */
+    int workers;    /* how many threads may call evaluate at once, >= 1; 0: 1 */
 
     /* Judges one candidate. Calls with different `worker` (0 .. workers-1) may run at the same time. A
      * candidate that cannot be judged is verdict->status > 0; a negative return ends the search. */
@@ -224,12 +224,16 @@ typedef struct ves_move_count {
     double width;
 } ves_move_count;
 
-/* One temperature of one annealing: all chains together or, of replicas, the coldest. */
+/* One temperature of one annealing: all chains together or, of replicas, the coldest. Where a leg has more than
+ * two hundred temperatures some that follow each other stand together. */
 typedef struct ves_temperature {
     int stage, annealing, leg; /* annealing: its place among the reports; a leg goes from hot to cold */
+    int steps;                 /* temperatures that stand here together; c is the last of them */
     double c;                  /* temperature */
     long trials, accepted;
-    double mean, variance; /* of the energy, which is the value where there are no constraints */
+    double mean,
+        variance; /* of the energy, which is the value where there are no constraints; variance: within
+                              each chain, the mean of the chains */
     ves_move_count move[VES_MOVES];
 } ves_temperature;
 
@@ -251,7 +255,9 @@ typedef struct ves_annealing_report {
     double c0, c;                    /* first and last temperature */
     double
         freezing; /* of the last leg: below it the mean energy fell by less than a hundredth of its whole fall */
-    double peak;         /* of the last leg: where the heat capacity, variance / c^2, was largest */
+    double
+        peak; /* where the heat capacity, variance / c^2, was largest, by all legs and above where the first
+                    one froze; smoothed, and the hottest that is within a twentieth of it. NAN: it has none */
     long swaps, swapped; /* exchanges of replicas: tried, done */
     double least_swap;   /* of the pair that exchanged least: done / tried; NAN: no replicas */
     double apart; /* of the chains in the end: how far their mean energies are apart, as a part of the fall

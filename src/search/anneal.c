@@ -19,12 +19,13 @@ static bool arrays_take(ves_annealing *a)
     a->best = ves_arena_take(arena, chains, sizeof *a->best);
     a->refused = ves_arena_take(arena, chains, sizeof *a->refused);
     a->ends = ves_arena_take(arena, chains, sizeof *a->ends);
+    a->line = ves_arena_take(arena, chains, sizeof *a->line);
     a->value = ves_arena_take(arena, draws, sizeof(double));
     a->violation = ves_arena_take(arena, draws, sizeof(double));
     a->constraint = ves_arena_take(arena, draws * m, sizeof(double));
     a->champion = ves_session_ends(a->session, a->chains);
-    return a->chain && a->asker && a->c && a->swaps && a->best && a->refused && a->ends && a->value &&
-           a->violation && a->constraint && a->champion;
+    return a->chain && a->asker && a->c && a->swaps && a->best && a->refused && a->ends && a->line &&
+           a->value && a->violation && a->constraint && a->champion;
 }
 
 static bool chains_create(ves_annealing *a, uint32_t stream)
@@ -156,15 +157,15 @@ static ves_status leg_next(ves_annealing *a)
 static ves_status temperature_end(ves_annealing *a)
 {
     ves_session *session = a->session;
-    VES_TRY(ves_annealing_log(a));
-    const ves_temperature *seen = &session->temperature_log[session->temperatures - 1];
-    a->quiet = seen->accepted ? 0 : a->quiet + 1;
+    ves_temperature seen;
+    VES_TRY(ves_annealing_log(a, &seen));
+    a->quiet = seen.accepted ? 0 : a->quiet + 1;
     a->frozen = a->quiet >= QUIET && !a->schedule->samples && !a->schedule->steers;
     a->report.c = a->cooling.c;
     a->made = 0;
-    bool on = a->schedule->next(&a->cooling, seen) && !a->frozen;
+    bool on = a->schedule->next(&a->cooling, &seen) && !a->frozen;
     settle(a);
-    if (seen->c <= 0.5 * a->proved) VES_TRY(ves_annealing_offer(a));
+    if (seen.c <= 0.5 * a->proved) VES_TRY(ves_annealing_offer(a));
     ves_session_progress(session);
     return on || ves_session_over(session) ? VES_OK : leg_next(a);
 }

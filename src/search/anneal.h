@@ -10,6 +10,12 @@ typedef enum ves_annealing_phase {
     VES_ANNEALING_OVER
 } ves_annealing_phase;
 
+/* Energies that one chain has seen: how many, their mean, the sum of squared deviations from it. */
+typedef struct ves_sample {
+    long trials;
+    double mean, square;
+} ves_sample;
+
 /* Everything about it; anneal.c, legs.c, warm.c and health.c write in it. */
 typedef struct ves_annealing {
     ves_session *session;
@@ -44,7 +50,9 @@ typedef struct ves_annealing {
     double proved;   /* temperature of the last round of proofs */
 
     ves_annealing_report report;
-    double *ends; /* [chains] mean energies at the last temperature */
+    double *ends;        /* [chains] mean energies at the last temperature */
+    int row, held, most; /* its last line in the log: where, how many temperatures it holds, and may hold */
+    ves_sample *line;    /* [chains] theirs */
 } ves_annealing;
 
 /* Begins at the ends of the session. options: completed. stream: of its random numbers, from
@@ -78,9 +86,11 @@ ves_status ves_annealing_offer_last(ves_annealing *a); /* the champions */
 void ves_annealing_crown(ves_annealing *a);            /* what is best of this leg may be best of all */
 ves_status ves_annealing_polish(ves_annealing *a, ves_end *end); /* [chains] */
 
-/* health.c: the report's place in the session, what is logged of a temperature, and the report. */
+/* health.c: the report's place in the session, what is logged of a temperature, where the heat capacity was largest
+ * (0: nowhere), and the report. */
 bool ves_annealing_enlist(ves_annealing *a);
-ves_status ves_annealing_log(ves_annealing *a);
+ves_status ves_annealing_log(ves_annealing *a, ves_temperature *seen); /* seen: of this temperature alone */
+ves_status ves_annealing_peak(const ves_annealing *a, double *peak);
 ves_status ves_annealing_tell(ves_annealing *a);
 
 #endif

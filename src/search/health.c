@@ -1,12 +1,17 @@
 #include <math.h>
 
 #include "search/anneal.h"
+#include "search/spread.h"
 
 /* What an annealing says of itself. */
 
 /* Chains that end further apart than this part of the fall of the mean energy froze in different places; the mean
  * energy is frozen when this part of its fall is left. */
 static const double little = 0.01;
+
+/* Heat capacities are smoothed over a factor of so much both ways; a line counts as so many times the median at most;
+ * and a peak is so many times as high as where all is frozen. */
+static const double reach = 1.4, stray = 2, outstanding = 1.5;
 
 bool ves_annealing_enlist(ves_annealing *a)
 {
@@ -50,13 +55,19 @@ static bool log_grow(ves_session *session)
 }
 
 /* Means and squared deviations of two samples are those of both together (Chan, Golub and LeVeque 1983). */
-static void pool(const ves_annealing *a, const ves_chain *chain, ves_temperature *t)
+static void join(ves_sample *all, const ves_chain *chain)
 {
-    int n = a->session->n;
+    double trials = (double)chain->trials, before = (double)all->trials, delta = chain->mean - all->mean;
     if (!chain->trials) return;
-    double trials = (double)chain->trials, delta = chain->mean - t->mean, all = (double)t->trials + trials;
-    t->variance += chain->square + delta * delta * (double)t->trials * trials / all;
-    t->mean += delta * trials / all;
+    all->square += chain->square + delta * delta * before * trials / (before + trials);
+    all->mean += delta * trials / (before + trials);
+    all->trials += chain->trials;
+}
+
+/* Temperatures that stand together are one. */
+static void add(const ves_annealing *a, const ves_chain *chain, ves_temperature *t)
+{
+    double heat = fmin(a->cooling.c / a->cooling.c0, 1);
     t->trials += chain->trials;
     t->accepted += chain->accepted;
     for (int k = 0; k < chain->moves; k++) {
@@ -64,55 +75,140 @@ static void pool(const ves_annealing *a, const ves_chain *chain, ves_temperature
         ves_move_count *count = &t->move[k];
         count->trials += move->trials;
         count->accepted += move->accepted;
-        if (move->proposal->width) count->width += move->proposal->width(n, move->state);
+        if (move->proposal->width) count->width += move->proposal->width(a->session->n, heat, move->state);
     }
 }
 
-ves_status ves_annealing_log(ves_annealing *a)
+static void count(ves_annealing *a, const ves_temperature *seen, ves_temperature *t)
+{
+    t->c = seen->c;
+    t->steps = ++a->held;
+    t->trials += seen->trials;
+    t->accepted += seen->accepted;
+    for (int k = 0; k < VES_MOVES; k++) {
+        ves_move_count *const both[] = {&t->move[k], &a->report.count[k]};
+        for (int b = 0; b < 2; b++) {
+            both[b]->trials += seen->move[k].trials;
+            both[b]->accepted += seen->move[k].accepted;
+            both[b]->width = seen->move[k].width;
+        }
+    }
+}
+
+/* Chains that sit in different places differ by their means for ever: heat capacities are of what each does. */
+static void look_at_line(const ves_annealing *a, int counted, ves_temperature *t)
+{
+    double sum = 0, square = 0;
+    for (int k = 0; k < counted; k++) {
+        sum += a->line[k].mean * (double)a->line[k].trials;
+        square += a->line[k].square;
+    }
+    if (!t->trials) return;
+    t->mean = sum / (double)t->trials;
+    t->variance = square / (double)t->trials;
+}
+
+ves_status ves_annealing_log(ves_annealing *a, ves_temperature *seen)
 {
     ves_session *session = a->session;
-    if (!log_grow(session)) return VES_MEMORY;
-    ves_temperature t = {
-        .stage = session->stage_index, .annealing = a->index, .leg = a->cooling.leg, .c = a->cooling.c};
     int counted = a->population->meet ? 1 : a->chains;
-    for (int k = 0; k < a->chains; k++) a->ends[k] = a->chain[k].mean;
-    for (int k = 0; k < counted; k++) pool(a, &a->chain[k], &t);
-    if (t.trials) t.variance /= (double)t.trials;
-    for (int k = 0; k < VES_MOVES; k++) {
-        t.move[k].width /= counted;
-        a->report.count[k].trials += t.move[k].trials;
-        a->report.count[k].accepted += t.move[k].accepted;
-        a->report.count[k].width = t.move[k].width;
+    *seen = (ves_temperature){
+        .stage = session->stage_index, .annealing = a->index, .leg = a->cooling.leg, .c = a->cooling.c};
+    if (a->held == a->most) a->held = 0;
+    if (!a->held) {
+        if (!log_grow(session)) return VES_MEMORY;
+        a->row = session->temperatures++;
+        session->temperature_log[a->row] = *seen;
+        for (int k = 0; k < counted; k++) a->line[k] = (ves_sample){0};
     }
-    session->acceptance = t.trials ? (double)t.accepted / (double)t.trials : NAN;
-    session->temperature_log[session->temperatures++] = t;
+    for (int k = 0; k < a->chains; k++) a->ends[k] = a->chain[k].mean;
+    for (int k = 0; k < counted; k++) {
+        add(a, &a->chain[k], seen);
+        join(&a->line[k], &a->chain[k]);
+    }
+    for (int k = 0; k < VES_MOVES; k++) seen->move[k].width /= counted;
+    ves_temperature *t = &session->temperature_log[a->row];
+    count(a, seen, t);
+    look_at_line(a, counted, t);
+    session->acceptance = seen->trials ? (double)seen->accepted / (double)seen->trials : NAN;
     return VES_OK;
 }
 
-/* Freezing and the peak of the heat capacity, from the temperatures of the last leg; returns the fall of the mean
- * energy in it. */
-static double look_back(ves_annealing *a)
+/* The lines of one leg, those of other annealings left out: the next one after k. */
+static const ves_temperature *line_after(const ves_annealing *a, int leg, int *k)
 {
     const ves_session *session = a->session;
-    const ves_temperature *last = NULL, *first = NULL;
-    double most = 0;
-    for (int k = session->temperatures - 1; k >= 0; k--) {
-        const ves_temperature *t = &session->temperature_log[k];
-        if (t->annealing != a->index || !t->trials) continue;
-        if (last && t->leg != last->leg) break;
-        first = t;
-        if (!last) last = t;
-        double capacity = t->variance / (t->c * t->c);
-        if (capacity > most) most = capacity, a->report.peak = t->c;
+    for (++*k; *k < session->temperatures; ++*k) {
+        const ves_temperature *t = &session->temperature_log[*k];
+        if (t->annealing == a->index && t->leg == leg && t->trials) return t;
     }
-    double fall = last ? first->mean - last->mean : 0;
-    for (int k = session->temperatures - 1; k >= 0 && fall > 0; k--) {
-        const ves_temperature *t = &session->temperature_log[k];
-        if (t->annealing != a->index || t->leg != last->leg) continue;
-        if (t->mean - last->mean > little * fall) break;
-        a->report.freezing = t->c;
+    return NULL;
+}
+
+/* Where the mean energy of a leg is frozen, and how far it fell in all. */
+static double freezing_of(const ves_annealing *a, int leg, double *fall)
+{
+    const ves_temperature *first = NULL, *last = NULL, *t;
+    double c = NAN;
+    for (int k = -1; (t = line_after(a, leg, &k)); last = t)
+        if (!first) first = t;
+    *fall = first ? first->mean - last->mean : 0;
+    if (!(*fall > 0)) return NAN;
+    for (int k = -1; (t = line_after(a, leg, &k));) {
+        bool above = t->mean - last->mean > little * *fall;
+        if (above || isnan(c)) c = above ? NAN : t->c;
     }
-    return fall;
+    return c;
+}
+
+/* Of the lines between two temperatures, of all legs. Where a chain falls into another basin for good its variance tells
+ * how deep that lies: so no line counts for more than some times the median. */
+static double capacity(const ves_annealing *a, double low, double high, double *scratch)
+{
+    const ves_session *session = a->session;
+    double most = HUGE_VAL, sum = 0, trials = 0;
+    for (int pass = 0; pass < 2; pass++) {
+        int count = 0;
+        for (int k = 0; k < session->temperatures; k++) {
+            const ves_temperature *t = &session->temperature_log[k];
+            if (t->annealing != a->index || !t->trials || t->c < low || t->c > high) continue;
+            scratch[count] = t->variance / (t->c * t->c);
+            if (pass) sum += (double)t->trials * fmin(scratch[count], most), trials += (double)t->trials;
+            count++;
+        }
+        if (!pass) most = stray * ves_median_above(scratch, count, 0);
+    }
+    return trials > 0 ? sum / trials : 0;
+}
+
+/* The first leg goes through all temperatures. Where chains have frozen, heat capacities are those of the bottoms of
+ * their basins, n / 2 at any temperature: a peak stands out above that. */
+ves_status ves_annealing_peak(const ves_annealing *a, double *peak)
+{
+    ves_session *session = a->session;
+    const ves_temperature *t;
+    double fall, frozen = freezing_of(a, 0, &fall);
+    double *scratch = ves_arena_take(&session->arena, (size_t)session->temperatures, sizeof *scratch);
+    if (!scratch) return VES_MEMORY;
+    double most = outstanding * capacity(a, 0, frozen, scratch);
+    *peak = 0;
+    for (int k = -1; (t = line_after(a, 0, &k)) && t->c > frozen;) {
+        double here = capacity(a, t->c / reach, t->c * reach, scratch);
+        if (here > most) most = here, *peak = t->c;
+    }
+    return VES_OK;
+}
+
+/* A last leg that was stopped before it had a temperature tells nothing. */
+static ves_status look_back(ves_annealing *a, double *fall)
+{
+    int none = -1, leg = a->cooling.leg;
+    double peak = 0;
+    if (!a->schedule->samples) VES_TRY(ves_annealing_peak(a, &peak));
+    while (leg && !line_after(a, leg, &none)) leg--, none = -1;
+    a->report.peak = peak > 0 ? peak : NAN;
+    a->report.freezing = freezing_of(a, leg, fall);
+    return VES_OK;
 }
 
 static void look_at_swaps(ves_annealing *a)
@@ -173,7 +269,9 @@ static const char *sentence(const ves_annealing *a)
 
 ves_status ves_annealing_tell(ves_annealing *a)
 {
-    look_at_ends(a, look_back(a));
+    double fall;
+    VES_TRY(look_back(a, &fall));
+    look_at_ends(a, fall);
     look_at_swaps(a);
     a->report.health = judge(a);
     a->report.sentence = sentence(a);

@@ -20,6 +20,8 @@ ves_status ves_annealing_leg_begin(ves_annealing *a, bool *begun)
     if (!cooling->leg) cooling->whole = cooling->left;
     *begun = cooling->left > 0 && a->schedule->begin(cooling);
     if (!*begun) return VES_OK;
+    a->held = 0;
+    a->most = (int)((cooling->temperatures + VES_TEMPERATURES - 1) / VES_TEMPERATURES);
     a->report.legs++;
     a->proved = cooling->c;
     a->made = 0;
@@ -128,6 +130,7 @@ ves_status ves_annealing_leg_end(ves_annealing *a)
     ves_session *session = a->session;
     VES_TRY(ves_annealing_offer(a));
     ves_annealing_crown(a);
+    VES_TRY(ves_annealing_peak(a, &a->cooling.peak));
     if (strcmp(a->options.polish, "stages") || ves_session_over(session)) return VES_OK;
     ves_end *end = ves_session_ends(session, a->chains);
     if (!end) return VES_MEMORY;

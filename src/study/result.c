@@ -223,6 +223,7 @@ static void statistics(const ves_run *run, ves_json *json)
         ves_json_integer(json, "annealing", t->annealing);
         ves_json_integer(json, "leg", t->leg);
         ves_json_number(json, "c", t->c);
+        ves_json_integer(json, "steps", t->steps);
         ves_json_integer(json, "trials", t->trials);
         ves_json_integer(json, "accepted", t->accepted);
         ves_json_number(json, "mean", t->mean);

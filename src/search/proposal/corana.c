@@ -52,8 +52,9 @@ static void adapt(int n, double *state, bool accepted)
     *trials = *yes = 0;
 }
 
-static double width(int n, const double *state)
+static double width(int n, double heat, const double *state)
 {
+    (void)heat;
     double sum = 0;
     for (int i = 0; i < n; i++) sum += log(state[WIDTH + i]);
     return exp(sum / n);

@@ -103,8 +103,9 @@ static void learn(int n, double *state, const double *u)
     if ((long)learnt % (n / 2 + 1) == 0) factor(n, c, l);
 }
 
-static double width(int n, const double *state)
+static double width(int n, double heat, const double *state)
 {
+    (void)heat;
     const double *c = state + MEAN + 2 * n;
     double sum = 0;
     for (int i = 0; i < n; i++) sum += c[dense(n) ? i * n + i : i];

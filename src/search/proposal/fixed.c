@@ -25,9 +25,9 @@ static void propose(int n, double *state, double heat, ves_random *random, doubl
     for (int i = 0; i < n; i++) u[i] = ves_point_reflect(u[i] + state[0] * (2 * r[i] - 1));
 }
 
-static double width(int n, const double *state)
+static double width(int n, double heat, const double *state)
 {
-    (void)n;
+    (void)n, (void)heat;
     return state[0];
 }
 

@@ -26,10 +26,11 @@ struct ves_proposal {
     /* u holds the current point on entry and the candidate on return; both in the unit box. heat: temperature
      * over the first one, at most 1. */
     void (*propose)(int n, double *state, double heat, ves_random *random, double *u);
-    void (*adapt)(int n, double *state, bool accepted);   /* after each trial of its own; NULL: nothing */
-    void (*learn)(int n, double *state, const double *u); /* where the chain stands; NULL: nothing */
-    double (*log_ratio)(int n, const double *state);      /* log q(v -> u) / q(u -> v); NULL: 0 */
-    double (*width)(int n, const double *state); /* of a typical step along one coordinate, now; NULL: none */
+    void (*adapt)(int n, double *state, bool accepted);       /* after each trial of its own; NULL: nothing */
+    void (*learn)(int n, double *state, const double *u);     /* where the chain stands; NULL: nothing */
+    double (*log_ratio)(int n, const double *state);          /* log q(v -> u) / q(u -> v); NULL: 0 */
+    double (*width)(int n, double heat, const double *state); /* of a typical step along one coordinate, now;
+                                                                 NULL: none */
     const ves_share *share; /* of a mixture, which has nothing else: ends with proposal == NULL */
 };
 

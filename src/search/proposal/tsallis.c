@@ -29,6 +29,13 @@ static void move(double *u, double by, double uniform)
     *u = fabs(by) < farthest ? ves_point_reflect(*u + by) : uniform;
 }
 
+/* w of the formula. */
+static double width(int n, double heat, const double *state)
+{
+    (void)n;
+    return fmax(state[0] * pow(heat, 1 / (3 - q)), narrowest);
+}
+
 static void propose(int n, double *state, double heat, ves_random *random, double *u)
 {
     double r[4], y[2], *z = state + 1;
@@ -36,8 +43,7 @@ static void propose(int n, double *state, double heat, ves_random *random, doubl
     ves_random_pair(random, y);
     double uniform = r[3];
     ves_random_turn(&y[0], &y[1]);
-    double width = state[0] * pow(heat, 1 / (3 - q));
-    double scale = (width > narrowest ? width : narrowest) * pow(fabs(y[1]), -(q - 1) / (3 - q));
+    double scale = width(n, heat, state) * pow(fabs(y[1]), -(q - 1) / (3 - q));
     if (n == 1 || r[0] < 0.5) {
         int i = (int)(r[1] * n);
         move(&u[i], scale * y[0], uniform);
@@ -48,12 +54,6 @@ static void propose(int n, double *state, double heat, ves_random *random, doubl
         if (fabs(scale * z[i]) >= farthest) uniform = ves_random_uniform(random);
         move(&u[i], scale * z[i], uniform);
     }
-}
-
-static double width(int n, const double *state)
-{
-    (void)n;
-    return state[0];
 }
 
 const ves_proposal ves_proposal_tsallis = {

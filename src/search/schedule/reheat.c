@@ -1,7 +1,7 @@
 #include "search/schedule/schedule.h"
 
 /* Exponential to c_end in legs of equal length, the first from c0; each further one goes on from where the chains
- * are, at the temperature where the heat capacity, variance of f / c^2, was largest in the leg before: there the
+ * are, at the temperature where the heat capacity, variance of f / c^2, was largest in the legs before: there the
  * large choices are made (Abramson, Krishnamoorthy and Dang 1999), and above it nothing is learnt. */
 
 enum { LEGS = 6, LEAST = 100 };
@@ -14,17 +14,12 @@ static bool begin(ves_cooling *cooling)
     long share = cooling->leg < legs ? cooling->left / (legs - cooling->leg) : cooling->left;
     double from = cooling->leg && cooling->peak > 0 ? cooling->peak : cooling->c0;
     ves_cooling_begin(cooling, from, share);
-    cooling->peak = cooling->capacity = 0;
     return true;
 }
 
 static bool next(ves_cooling *cooling, const ves_temperature *seen)
 {
-    double capacity = seen->trials ? seen->variance / (seen->c * seen->c) : 0;
-    if (capacity > cooling->capacity && seen->c > 10 * cooling->c_end) {
-        cooling->capacity = capacity;
-        cooling->peak = seen->c;
-    }
+    (void)seen;
     return ves_cooling_next(cooling);
 }
 

@@ -6,6 +6,8 @@
 
 #include "vesica/search.h"
 
+enum { VES_TEMPERATURES = 200 }; /* of a leg: no more unless the schedule is given, and no more are told */
+
 typedef struct ves_cooling {
     /* given */
     const ves_anneal *options; /* completed */
@@ -23,8 +25,8 @@ typedef struct ves_cooling {
     bool settled; /* nothing is adapted: the chains sample */
     bool cold;    /* the leg has reached its last temperature */
     /* of schedules that go by what they see */
-    double rate;           /* lam: acceptance, averaged */
-    double peak, capacity; /* reheat: where the heat capacity is largest, and how large */
+    double rate; /* lam: acceptance, averaged */
+    double peak; /* reheat: where the heat capacity of the legs before was largest; 0: it has no peak */
 } ves_cooling;
 
 typedef struct ves_schedule {
