@@ -93,6 +93,25 @@ Test(cli_plugin, a_plugin_that_is_not_sound_is_refused)
     root_remove();
 }
 
+/* A plugin whose gradient has a wrong factor: the run ends well or not, but it is told. */
+Test(cli_plugin, a_gradient_that_is_wrong_is_told)
+{
+    root_make();
+    build_plugin("good.so", "");
+    cr_assert(system("sed 's/seed \\* psi \\* 2/seed * psi * 6/' " VESICA_SOURCE
+                     "/examples/plugin/sphericity.c > wrong.c && cc -std=c17 -shared -fPIC -I" VESICA_SOURCE
+                     "/include -o wrong.so wrong.c -lm") == 0);
+    static const char run[] =
+        "run " PROBLEMS "bottle.yaml --set maximize=sphericity --evaluations 900 --no-files";
+    outcome o = vesica(NULL, "%s --plugin wrong.so", run);
+    cr_expect(strstr(o.out, "the gradient seems to be wrong: near the start") != NULL, "%s", o.out);
+    done(&o);
+    o = vesica(NULL, "%s --plugin good.so", run);
+    cr_expect(strstr(o.out, "seems to be wrong") == NULL, "%s", o.out);
+    done(&o);
+    root_remove();
+}
+
 /* A start design that takes long, without waiting for it: its measure rings the bell. */
 Test(cli_plugin, who_waits_for_a_start_design_is_told)
 {

@@ -35,8 +35,11 @@ typedef struct ves_search_problem {
     const double *const *other; /* [others][n] inside the box */
     const bool *equality; /* [m] true: constraint == 0; false: constraint <= 0. NULL: all inequalities */
     double tolerance;     /* feasible: violation <= tolerance; 0: 1e-6 */
-    bool gradients; /* evaluate answers VES_WANT_GRADIENT exactly. */
-    int workers;    /* how many threads may call evaluate at once, >= 1; 0: 1 */
+    /* evaluate answers VES_WANT_GRADIENT exactly. At the end of a search that has used them 3 of the evaluations that
+     * are left (5 in doubt) compare them with differences: where they are more than a hundredth of the slope apart, and
+     * not by rounding, a note tells it. */
+    bool gradients;
+    int workers; /* how many threads may call evaluate at once, >= 1; 0: 1 */
 
     /* Judges one candidate. Calls with different `worker` (0 .. workers-1) may run at the same time. A
      * candidate that cannot be judged is verdict->status > 0; a negative return ends the search. */
@@ -231,9 +234,8 @@ typedef struct ves_temperature {
     int steps;                 /* temperatures that stand here together; c is the last of them */
     double c;                  /* temperature */
     long trials, accepted;
-    double mean,
-        variance; /* of the energy, which is the value where there are no constraints; variance: within
-                              each chain, the mean of the chains */
+    double mean;     /* of the energy, which is the value where there are no constraints */
+    double variance; /* of the energy within each chain, the mean of the chains */
     ves_move_count move[VES_MOVES];
 } ves_temperature;
 
@@ -255,9 +257,9 @@ typedef struct ves_annealing_report {
     double c0, c;                    /* first and last temperature */
     double
         freezing; /* of the last leg: below it the mean energy fell by less than a hundredth of its whole fall */
-    double
-        peak; /* where the heat capacity, variance / c^2, was largest, by all legs and above where the first
-                    one froze; smoothed, and the hottest that is within a twentieth of it. NAN: it has none */
+    /* Where the heat capacity, variance / c^2, was largest: of all legs, smoothed, above where the first one froze.
+     * NAN: nowhere half as large again as where all is frozen. */
+    double peak;
     long swaps, swapped; /* exchanges of replicas: tried, done */
     double least_swap;   /* of the pair that exchanged least: done / tried; NAN: no replicas */
     double apart; /* of the chains in the end: how far their mean energies are apart, as a part of the fall

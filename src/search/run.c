@@ -41,7 +41,7 @@ static ves_status work(ves_session *session)
         ves_session_note(session, "the budget (%ld in all) left no evaluations for stage %d", session->budget,
                          k + 1);
     }
-    return session->fault;
+    return session->fault ? session->fault : ves_search_doubt(session);
 }
 
 ves_status ves_search_run(const ves_search_problem *problem, const ves_search_options *options,

@@ -214,6 +214,9 @@ ves_status ves_anneal_run(ves_session *session, const ves_anneal *options, long 
 ves_status ves_portfolio_run(ves_session *session, const ves_auto *options, long budget);
 ves_status ves_polish_run(ves_session *session, const ves_polish *options, long budget);
 
+/* doubt.c: a note where gradients are not those of the values. After the stages; at most 5 evaluations. */
+ves_status ves_search_doubt(ves_session *session);
+
 /* Distinct ends, and the result. */
 ves_status ves_search_finish(ves_session *session, ves_search_result **result);
 
