@@ -270,6 +270,32 @@ Test(study, the_trace_has_a_line_for_each_evaluation)
     root_remove();
 }
 
+/* By what they are, not by who spoke last: a portfolio and a polish have many voices, a short stage has none. */
+Test(study, stages_are_named_by_their_kind)
+{
+    static const struct {
+        const char *search;
+        long evaluations;
+        const char *name[3];
+    } list[] = {{"", 400, {"auto", "polish"}},
+                {"", 2, {"auto"}},
+                {"search: [{auto: {}}]\n", 400, {"auto"}},
+                {"search: [{anneal: {polish: stages}}]\n", 900, {"anneal"}},
+                {"search: [{anneal: {}}, {polish: {algorithm: cobyla}}]\n", 400, {"anneal", "polish"}}};
+    for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
+        char text[4000];
+        snprintf(text, sizeof text, "%s%s", BOTTLE, list[k].search);
+        const ves_run_options options = {.evaluations = list[k].evaluations, .jobs = 1};
+        trial t = run_with(text, &options, NULL);
+        const ves_run_times *times = &t.run->times;
+        cr_expect(times->stages >= 1, "%zu: no stages", k);
+        for (int s = 0; s < times->stages && s < 3 && list[k].name[s]; s++)
+            cr_expect(strcmp(times->stage[s].name, list[k].name[s]) == 0, "%zu: stage %d is called \"%s\"", k,
+                      s, times->stage[s].name);
+        finish(&t);
+    }
+}
+
 Test(study, a_problem_without_variables_is_measured_once)
 {
     trial t = run_with(

@@ -283,11 +283,16 @@ static ves_status start_prove(ves_study *s, const char *what, ves_status *proof)
     return verdict.status == VES_OK ? VES_OK : ves_study_note(s, text);
 }
 
+/* Stages behind those of the search polish again, from its end. */
 static void stage_names(ves_study *s)
 {
+    static const char *const name[] = {
+        [VES_STAGE_ANNEAL] = "anneal", [VES_STAGE_POLISH] = "polish", [VES_STAGE_AUTO] = "auto"};
     for (int k = 0; k < VES_STAGES; k++) {
-        bool polish = s->search.stages ? s->search.stage[k].kind == VES_STAGE_POLISH : k == 1;
-        snprintf(s->run->times.stage[k].name, VES_RUN_NAME, "%s", polish ? "polish" : "anneal");
+        ves_stage_kind kind = k < s->search.stages          ? s->search.stage[k].kind
+                              : !s->search.stages && k == 0 ? VES_STAGE_AUTO
+                                                            : VES_STAGE_POLISH;
+        snprintf(s->run->times.stage[k].name, VES_RUN_NAME, "%s", name[kind]);
     }
 }
 

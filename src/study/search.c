@@ -1,5 +1,4 @@
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/diag.h"
@@ -61,8 +60,6 @@ static void hear_progress(void *data, const ves_progress *progress)
     shown.stage += s->stages_before;
     shown.evaluations += s->evaluations_before;
     shown.budget += s->evaluations_before;
-    if (shown.stage >= 0 && shown.stage < VES_STAGES && shown.stage_name)
-        snprintf(s->run->times.stage[shown.stage].name, VES_RUN_NAME, "%s", shown.stage_name);
     if (s->hooks->progress) s->hooks->progress(s->hooks->data, &shown);
 }
 
