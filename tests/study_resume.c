@@ -1,9 +1,11 @@
 /* Runs that are broken off and go on: the same bytes as without. */
+#define _DEFAULT_SOURCE /* syscall */
 #include <criterion/criterion.h>
 #include <criterion/new/assert.h>
 
 #pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
 
+#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -11,6 +13,7 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -27,6 +30,16 @@
     "cos(u))*cos(v)\", \"(R + cos(u))*sin(v)\", \"sin(u)\"]}\n    domain: {u: [0, 2*pi], v: [0, 2*pi]}\n"    \
     "shape: {closed: true}\nmeasures: {hh: {integral: \"H^2\"}}\nmaximize: -hh\nconstraints: [hh >= 3]\n"    \
     "quadrature: auto\nsearch: [{anneal: {evaluations: 250}}, {polish: {}}]\n"
+
+/* The file system's: some have no locks. */
+static int no_locks;
+
+int flock(int fd, int operation)
+{
+    if (!no_locks) return (int)syscall(SYS_flock, fd, operation);
+    errno = no_locks;
+    return -1;
+}
 
 static char root[400];
 
@@ -443,6 +456,27 @@ Test(study_resume, one_process_at_a_time)
     ves_lock_drop(&first);
     cr_expect(access(place("whole", "lock"), F_OK) != 0);
     ves_arena_destroy(&arena);
+    root_remove();
+}
+
+/* Network file systems without locks: a run goes on, but says that nothing guards its folder. */
+Test(study_resume, a_folder_that_cannot_be_locked_is_told)
+{
+    static const int error[] = {ENOLCK, EOPNOTSUPP};
+    root_make();
+    begin("whole", 1);
+    for (int k = 0; k < 2; k++) {
+        no_locks = error[k];
+        trial t = resume("whole", 1);
+        cr_expect(t.status == VES_OK && t.run && t.run->over);
+        cr_expect(said(t.diag, "cannot be locked") == 1 && said(t.diag, strerror(error[k])) == 1);
+        cr_expect(said(t.diag, "See to it that no other process works in it") == 1);
+        finish(&t);
+    }
+    no_locks = 0;
+    trial t = resume("whole", 1);
+    cr_expect(said(t.diag, "cannot be locked") == 0);
+    finish(&t);
     root_remove();
 }
 

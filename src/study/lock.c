@@ -24,6 +24,17 @@ static ves_status refuse(int fd, const char *folder, ves_diag *diag)
                         folder);
 }
 
+/* Some network file systems know no locks, or their server does not answer. A work that nobody else goes on with needs
+ * none; so it goes on, but not silently. */
+static void warn(const char *folder, int error, ves_diag *diag)
+{
+    ves_diag_add(
+        diag, VES_WARNING, VES_IO, (ves_mark){0},
+        "\"%s\" cannot be locked: %s. See to it that no other process works in it meanwhile, or take a "
+        "folder on a local disk",
+        folder, strerror(error));
+}
+
 /* Is the file still the one that the name stands for? Who had it may have removed it meanwhile. */
 static bool is_there(int fd, const char *path)
 {
@@ -48,12 +59,14 @@ ves_status ves_lock_take(ves_lock *lock, const char *folder, ves_arena *arena, v
         if (fd < 0)
             return ves_diag_add(diag, VES_ERROR, VES_IO, (ves_mark){0}, "cannot write \"%s\": %s", lock->path,
                                 strerror(errno));
-        if (flock(fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK) {
+        int error = flock(fd, LOCK_EX | LOCK_NB) ? errno : 0;
+        if (error == EWOULDBLOCK) {
             ves_status status = refuse(fd, folder, diag);
             close(fd);
             return status;
         }
         if (is_there(fd, lock->path)) {
+            if (error) warn(folder, error, diag);
             sign(fd);
             lock->fd = fd;
             return VES_OK;

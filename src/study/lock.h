@@ -11,7 +11,8 @@ typedef struct ves_lock {
     const char *path;
 } ves_lock;
 
-/* VES_USAGE: another process has it, or this one in another run. A file system without locks has none. */
+/* VES_USAGE: another process has it, or this one in another run. Where the file system cannot lock it is taken with a
+ * warning. */
 ves_status ves_lock_take(ves_lock *lock, const char *folder, ves_arena *arena, ves_diag *diag);
 void ves_lock_drop(ves_lock *lock);
 
