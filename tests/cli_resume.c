@@ -167,3 +167,30 @@ Test(cli_resume, mpirun_is_recognised)
     done(&o);
     root_remove();
 }
+
+/* What only one process may do is not done by each of them: rank 0 says so, the others are silent. */
+Test(cli_resume, only_a_run_is_shared_by_the_processes_of_mpirun)
+{
+    static const char *const words[] = {"check " PROBLEMS "bottle.yaml",
+                                        "eval " PROBLEMS "bottle.yaml",
+                                        "export " PROBLEMS "bottle.yaml --to stl --out b.stl",
+                                        "new tube tube.yaml",
+                                        "journal none",
+                                        "bench " PROBLEMS "../bench/suites/elastica.yaml"};
+    root_make();
+    setenv("OMPI_COMM_WORLD_SIZE", "3", 1);
+    for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+        for (int rank = 0; rank < 2; rank++) {
+            setenv("OMPI_COMM_WORLD_RANK", rank ? "1" : "0", 1);
+            outcome o = vesica(NULL, "%s", words[k]);
+            cr_expect(o.code == 2 && !*o.out, "%s: %d, %s", words[k], o.code, o.out);
+            bool told =
+                strstr(o.err, "this is one of 3 processes that mpirun has started, and they cannot share");
+            cr_expect(rank ? !*o.err : told, "%s: %s", words[k], o.err);
+            done(&o);
+        }
+    cr_expect(access("b.stl", F_OK) && access("tube.yaml", F_OK) && access("runs", F_OK),
+              "something was written");
+    expect(vesica(NULL, "version"), 0, "vesica", NULL, "what writes nothing may be asked");
+    root_remove();
+}

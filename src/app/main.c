@@ -7,6 +7,7 @@
 
 #include "app/app.h"
 #include "base/text.h"
+#include "study/ranks.h"
 
 enum { MESSAGE = 8192, TEXT = 1000 };
 
@@ -102,6 +103,26 @@ static int unknown(app *a, const char *word)
     return app_fail(a, VES_USAGE, "no command and no file \"%s\" (vesica help lists the commands)", word);
 }
 
+/* Commands that mpirun may start: its processes share the work, or there is none that they could do to each other. */
+static bool shares(const app_command *command)
+{
+    static const char *const word[] = {"run", "list", "schema", "explain", "version", "help"};
+    for (size_t k = 0; k < sizeof word / sizeof *word; k++)
+        if (!strcmp(word[k], command->name)) return true;
+    return false;
+}
+
+/* Rank 0 speaks for all. */
+static int refuse_ranks(app *a, const app_command *command, int ranks, int rank)
+{
+    if (rank) return app_code(VES_USAGE);
+    return app_fail(
+        a, VES_USAGE,
+        "this is one of %d processes that mpirun has started, and they cannot share `vesica %s` out: "
+        "run it without mpirun",
+        ranks, command->name);
+}
+
 static int command_run(app *a, const app_command *command, int count, char **word)
 {
     int code;
@@ -110,6 +131,8 @@ static int command_run(app *a, const app_command *command, int count, char **wor
         app_help_command(command, stdout);
         return APP_DONE;
     }
+    int rank, ranks = ves_ranks_asked(&rank);
+    if (ranks > 1 && !shares(command)) return refuse_ranks(a, command, ranks, rank);
     ves_status status = app_plugins_load(a);
     return status == VES_OK ? command->run(a) : app_code(status);
 }
