@@ -2,7 +2,7 @@
  * Fifteen seeds, each with an instance of its own (the minimum moved, rot_: the coordinates turned); at most
  * min(1e4 d, 2e5) evaluations. ERT: evaluations of all seeds over the number of hits. Prints JSON Lines.
  *
- *     bench_restarts [d=5,10,20] [only=NAME] [seeds=15] [trace=0] [active=1] [hopeless=0.1] [tol=1e-12]
+ *     bench_restarts [d=5,10,20] [only=NAME] [seeds=15] [trace=0] [hopeless=0.1] [tol=1e-12]
  *                    [two=0] [first=1] [growth=2] [sigma=0.3]
  *
  * first: of the default population, times; the others are fields of ves_cma_options and ves_ipop_options. */
@@ -318,7 +318,6 @@ int main(int count, char **word)
         if (!strncmp(word[k], "only=", 5)) s.only = at;
         if (!strncmp(word[k], "seeds=", 6)) s.seeds = (int)x;
         if (!strncmp(word[k], "trace=", 6)) s.trace = x > 0;
-        if (!strncmp(word[k], "active=", 7)) s.cma.active = x > 0;
         if (!strncmp(word[k], "hopeless=", 9)) s.cma.hopeless = x;
         if (!strncmp(word[k], "tol=", 4)) s.cma.tol_fun = x;
         if (!strncmp(word[k], "two=", 4)) s.ipop.two = x > 0;

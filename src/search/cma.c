@@ -29,7 +29,7 @@ enum { RING = VES_CMA_RING, CANDIDATES = 1 << 20 };
 
 ves_cma_options ves_cma_default(void)
 {
-    return (ves_cma_options){.active = true, .tol_x = 1e-12, .tol_fun = 1e-12, .hopeless = 0.1};
+    return (ves_cma_options){.tol_x = 1e-12, .tol_fun = 1e-12, .hopeless = 0.1};
 }
 
 int ves_cma_population(int n)
@@ -80,7 +80,7 @@ static ves_cma_rates rates_of(int n, int mu, double mue)
 }
 
 /* (49)-(53): the negative weights never sum to more than leaves C its positive eigenvalues. */
-static void weigh(int n, int lambda, bool active, double *weight, ves_cma_rates *rates)
+static void weigh(int n, int lambda, double *weight, ves_cma_rates *rates)
 {
     int mu = lambda / 2;
     double positive = 0, negative = 0;
@@ -97,14 +97,14 @@ static void weigh(int n, int lambda, bool active, double *weight, ves_cma_rates 
     double alpha = fmin(1 + rates->c_1 / rates->c_mu, 1 + 2 * minus / (rates->mu_eff + 2));
     alpha = fmin(alpha, (1 - rates->c_1 - rates->c_mu) / (n * rates->c_mu));
     for (int i = 0; i < mu; i++) weight[i] /= positive;
-    for (int i = mu; i < lambda; i++) weight[i] *= active ? alpha / negative : 0;
+    for (int i = mu; i < lambda; i++) weight[i] *= alpha / negative;
 }
 
 void ves_cma_restart(ves_cma *cma, const double *mean, double sigma, int lambda)
 {
     int n = cma->n;
     cma->lambda = lambda;
-    weigh(n, lambda, cma->options.active, cma->weight, &cma->rates);
+    weigh(n, lambda, cma->weight, &cma->rates);
     cma->sigma = cma->first_sigma = sigma;
     for (int i = 0; i < n; i++) {
         cma->mean[i] = mean[i];

@@ -45,7 +45,6 @@ typedef enum ves_cma_stop {
 typedef struct ves_cma_options {
     uint64_t seed;
     uint32_t stream; /* runs with different streams draw different numbers */
-    bool active;     /* the worse half of a generation counts too, against its directions */
     double tol_x;    /* TOL_X: standard deviations below this part of the first ones */
     double tol_fun;  /* TOL_FUN: values within this part of the spread of the first generation */
     double hopeless; /* HOPELESS: gains below this part of the distance to the rival; 0: never */
@@ -68,7 +67,7 @@ typedef struct ves_cma {
     ves_cma_options options;
     int n, most, lambda;
     ves_cma_rates rates;
-    double *weight; /* [lambda] by rank: the first mu sum to 1, the others are negative, or 0 if not active */
+    double *weight; /* [lambda] by rank: the first mu sum to 1, the others are negative */
     double rival;   /* the best value of earlier runs; HUGE_VAL: none. The caller's to set, after restart */
     uint64_t generation; /* since create: no two runs draw the same numbers */
     long age;            /* generations of this run */

@@ -3,6 +3,7 @@
  * IPOP: each run has twice the population of the last (Auger and Hansen 2005).
  * BIPOP: two regimes that take turns by what they have spent: runs of doubling populations, and short runs of
  * small populations with small first steps (Hansen 2009).
+ * No search asks for BIPOP or for another growth than 2: bench/restarts.c does, and so measures why (ipop.c).
  * Starts are uniform in the unit box; run r depends on (seed, stream, r) and on what the runs before it spent. */
 #ifndef VES_SEARCH_IPOP_H
 #define VES_SEARCH_IPOP_H
