@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "search/basis.h"
 #include "search/saddle.h"
 
 /* Karush-Kuhn-Tucker conditions [Nocedal and Wright 2006, 12.3]; least-squares multipliers that are not negative
@@ -38,22 +39,16 @@ static bool unique(const work *w, double *row)
     const ves_descent *d = &w->descent;
     const int n = d->session->n;
     for (int r = 0; r < s->near; r++) {
-        double *q = row + r * n, size = 0, left = 0;
+        double *q = row + r * n, size = 0;
         for (int i = 0; i < n; i++) {
             bool off = s->base[i] > wall && s->base[i] < 1 - wall;
             double g = d->last.jacobian[s->touched[r] * n + i] * d->range[i];
             q[i] = off ? g : 0;
             size += g * g;
         }
-        for (int k = 0; k < 2 * r; k++) { /* twice, for orthogonality */
-            const double *other = row + k % r * n;
-            double along = 0;
-            for (int i = 0; i < n; i++) along += other[i] * q[i];
-            for (int i = 0; i < n; i++) q[i] -= along * other[i];
-        }
-        for (int i = 0; i < n; i++) left += q[i] * q[i];
-        if (!(left > independent * independent * size)) return false;
-        for (int i = 0; i < n; i++) q[i] /= sqrt(left);
+        double left = ves_basis_strip_all(n, row, r, q, NULL);
+        if (!(left > independent * sqrt(size))) return false;
+        for (int i = 0; i < n; i++) q[i] /= left;
     }
     return true;
 }

@@ -1,5 +1,6 @@
 #include <math.h>
 
+#include "search/basis.h"
 #include "search/descent.h"
 
 /* SQP solves for all equations at once, which has no answer where their gradients depend on each other or
@@ -21,23 +22,15 @@ static double *row_of(const ves_descent *d, int j)
     return d->row + (size_t)j * (size_t)(d->session->n + 1);
 }
 
-static double size(int n, const double *row)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++) sum += row[i] * row[i];
-    return sqrt(sum);
-}
-
 static void divide(int n, double *row, double by)
 {
     for (int i = 0; i <= n; i++) row[i] /= by;
 }
 
+/* The value follows. */
 static void subtract(int n, double *row, const double *unit)
 {
-    double along = 0;
-    for (int i = 0; i < n; i++) along += row[i] * unit[i];
-    for (int i = 0; i <= n; i++) row[i] -= along * unit[i];
+    ves_basis_strip(n, n + 1, unit, row);
 }
 
 /* Returns the size of the gradient. */
@@ -47,7 +40,7 @@ static double read(ves_descent *d, int j)
     double *row = row_of(d, j);
     for (int i = 0; i < n; i++) row[i] = d->last.jacobian[j * n + i] * d->range[i] / d->size[j];
     row[n] = d->last.constraint[j] / d->size[j];
-    return size(n, row);
+    return ves_basis_size(n, row);
 }
 
 static bool violated(const ves_descent *d, int j)
@@ -62,7 +55,7 @@ static int next(const ves_descent *d)
     int best = -1;
     double most = 0, least = alike[!d->session->problem->gradients];
     for (int j = 0; j < d->session->m; j++) {
-        double out = d->hold[j] == VES_HOLD_LATER ? size(d->session->n, row_of(d, j)) : 0;
+        double out = d->hold[j] == VES_HOLD_LATER ? ves_basis_size(d->session->n, row_of(d, j)) : 0;
         if (out <= least) continue;
         bool before = best >= 0 && violated(d, j) != violated(d, best) ? violated(d, j) : out > most;
         if (!before) continue;
@@ -78,7 +71,7 @@ static void choose(ves_descent *d)
     for (int taken; (taken = next(d)) >= 0;) {
         double *unit = row_of(d, taken);
         d->hold[taken] = VES_HOLD_NLOPT;
-        divide(n, unit, size(n, unit));
+        divide(n, unit, ves_basis_size(n, unit));
         for (int j = 0; j < d->session->m; j++)
             if (d->hold[j] == VES_HOLD_LATER) subtract(n, row_of(d, j), unit);
     }
@@ -93,7 +86,7 @@ static bool implied(ves_descent *d, int j)
             if (d->hold[k] == VES_HOLD_NLOPT && ves_session_equality(d->session, k))
                 subtract(n, row, row_of(d, k));
     double out = fmax(alike[!d->session->problem->gradients] * length, no_matter * tolerance);
-    return size(n, row) <= out && row[n] <= tolerance;
+    return ves_basis_size(n, row) <= out && row[n] <= tolerance;
 }
 
 void ves_rows_choose(ves_descent *d)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "search/basis.h"
 #include "search/eigen.h"
 
 /* Hessian of the Lagrangian  L = f + sum_j lambda_j c_j  on what the active walls and constraints leave
@@ -70,9 +71,8 @@ static double lagrangian(const ves_saddle *s, const ves_descent *d)
     return d->last.value + dot(d->session->m, s->multiplier, d->last.constraint);
 }
 
-/* Gram-Schmidt, twice for orthogonality, on the active gradients restricted to the free variables: row r of
- * the Jacobian is sum_k factor[k][r] basis[k]. A row that depends on the others is dropped from the active
- * ones. */
+/* Gram-Schmidt on the active gradients restricted to the free variables: row r of the Jacobian is sum_k factor[k][r]
+ * basis[k]. A row that depends on the others is dropped from the active ones. */
 static void span(ves_saddle *s, const ves_descent *d)
 {
     int n = d->session->n, nf = s->frees, rank = 0;
@@ -80,15 +80,8 @@ static void span(ves_saddle *s, const ves_descent *d)
         double *q = s->basis + rank * nf;
         for (int i = 0; i < nf; i++)
             q[i] = d->last.jacobian[s->row[r] * n + s->free[i]] * d->range[s->free[i]];
-        double size = sqrt(dot(nf, q, q));
-        for (int k = 0; k < rank; k++) s->factor[k * n + rank] = 0;
-        for (int pass = 0; pass < 2; pass++)
-            for (int k = 0; k < rank; k++) {
-                double along = dot(nf, s->basis + k * nf, q);
-                s->factor[k * n + rank] += along;
-                for (int i = 0; i < nf; i++) q[i] -= along * s->basis[k * nf + i];
-            }
-        double left = sqrt(dot(nf, q, q));
+        double size = ves_basis_size(nf, q), left = ves_basis_strip_all(nf, s->basis, rank, q, s->trial);
+        for (int k = 0; k < rank; k++) s->factor[k * n + rank] = s->trial[k];
         if (!(left > 1e-9 * size)) continue;
         for (int i = 0; i < nf; i++) q[i] /= left;
         s->factor[rank * n + rank] = left;
