@@ -3,9 +3,16 @@
 #include <math.h>
 #include <string.h>
 
+void ves_point_fail(ves_point *point)
+{
+    point->verdict.status = VES_NO_NUMBER;
+    point->verdict.value = point->verdict.violation = HUGE_VAL;
+}
+
 bool ves_point_create(ves_arena *arena, int n, int m, ves_point *point)
 {
-    *point = (ves_point){.verdict = {.status = VES_NO_NUMBER, .value = HUGE_VAL, .violation = HUGE_VAL}};
+    *point = (ves_point){0};
+    ves_point_fail(point);
     point->u = ves_arena_take(arena, (size_t)n, sizeof(double));
     point->x = ves_arena_take(arena, (size_t)n, sizeof(double));
     point->verdict.constraint = ves_arena_take(arena, (size_t)m, sizeof(double));

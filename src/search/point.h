@@ -16,6 +16,7 @@ typedef struct ves_point {
 
 /* False when out of memory. The new point is a failed one: worse than any other. */
 bool ves_point_create(ves_arena *arena, int n, int m, ves_point *point);
+void ves_point_fail(ves_point *point); /* makes it one again */
 void ves_point_copy(ves_point *to, const ves_point *from, int n, int m);
 
 /* One coordinate from the unit box to the caller's units, never outside the bounds. */

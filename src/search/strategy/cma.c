@@ -114,11 +114,7 @@ static void begin(cma *c)
     c->limit = next.limit;
     c->spent = 0;
     c->runs = true;
-    for (int k = 0; k < STRANDS; k++)
-        c->strand[k].best.verdict = (ves_verdict){.status = VES_NO_NUMBER,
-                                                  .value = HUGE_VAL,
-                                                  .violation = HUGE_VAL,
-                                                  .constraint = c->strand[k].best.verdict.constraint};
+    for (int k = 0; k < STRANDS; k++) ves_point_fail(&c->strand[k].best);
 }
 
 /* The best point of a run that is over is an end like any other. */

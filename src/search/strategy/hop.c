@@ -160,8 +160,7 @@ static void aim(hop *h, task *t, ves_random *random)
                                   : shake_alike)(h, random, t->from.u);
     }
     ves_point_place(session->problem, t->from.u, t->from.x);
-    t->from.verdict.status = VES_NO_NUMBER;
-    t->from.verdict.value = t->from.verdict.violation = HUGE_VAL;
+    ves_point_fail(&t->from);
 }
 
 static void prepare(hop *h, int k)
@@ -250,8 +249,7 @@ static void turn_back(hop *h)
         ves_point_copy(&h->current, &h->team->best, h->session->n, h->session->m);
         return;
     }
-    h->current.verdict.status = VES_NO_NUMBER;
-    h->current.verdict.value = h->current.verdict.violation = HUGE_VAL;
+    ves_point_fail(&h->current);
 }
 
 static ves_status hop_round(hop *h, long each)

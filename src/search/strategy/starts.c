@@ -64,8 +64,7 @@ static void run(void *data, int worker, int index)
     t->descent.asker.worker = worker;
     for (int i = 0; i < s->session->n; i++) t->from.u[i] = ves_random_uniform(&t->random);
     ves_point_place(s->session->problem, t->from.u, t->from.x);
-    t->from.verdict.status = VES_NO_NUMBER;
-    t->from.verdict.value = t->from.verdict.violation = HUGE_VAL;
+    ves_point_fail(&t->from);
     (void)ves_descent_run(&t->descent, &t->from, &t->end); /* a fault stands in the asker */
 }
 
