@@ -399,8 +399,8 @@ static ves_status look_round(portfolio *p)
     }
     int measured = LOOKERS * l->looks;
     double width = ves_spread(l->value, &measured);
-    double typical = ves_median_above(l->violation, LOOKERS * l->looks, session->tolerance);
-    p->team.weight = 2 * (width > 0 ? width : 1) / (typical > 0 ? typical : session->usual);
+    double typical = ves_typical(l->violation, LOOKERS * l->looks, session->tolerance, session->usual);
+    p->team.weight = ves_weight(width > 0 ? width : 1, typical);
     return status;
 }
 

@@ -29,3 +29,14 @@ double ves_median_above(double *value, int count, double limit)
     while (first < kept && value[first] <= limit) first++;
     return first < kept ? value[first + (kept - first) / 2] : 0;
 }
+
+double ves_weight(double width, double typical)
+{
+    return 2 * width / typical;
+}
+
+double ves_typical(double *violation, int count, double tolerance, double usual)
+{
+    double typical = ves_median_above(violation, count, tolerance);
+    return typical > 0 ? typical : usual;
+}

@@ -10,4 +10,9 @@ double ves_spread(double *value, int *count);
 /* The median of those above a limit; 0: there are none. */
 double ves_median_above(double *value, int count, double limit);
 
+/* What f may cost per unit of violation, so that a middle one costs two spreads. typical: the median of the violations
+ * beyond the tolerance, or `usual` where there are none. */
+double ves_weight(double width, double typical);
+double ves_typical(double *violation, int count, double tolerance, double usual);
+
 #endif

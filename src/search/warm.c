@@ -56,9 +56,9 @@ static void place(ves_annealing *a, const ves_burden *burden, double margin)
 static void weigh(ves_annealing *a, int count, double width, ves_burden *burden)
 {
     ves_session *session = a->session;
-    double given = a->options.weight, typical = ves_median_above(a->violation, count, session->tolerance);
-    if (!(typical > 0)) typical = session->usual;
-    burden->weight = given > 0 ? given : 2 * width / typical;
+    double given = a->options.weight;
+    double typical = ves_typical(a->violation, count, session->tolerance, session->usual);
+    burden->weight = given > 0 ? given : ves_weight(width, typical);
     burden->most = given > 0 ? given : 1e8 * burden->weight;
     for (int j = 0; j < session->m; j++) {
         double size = size_of(a, j, count, typical);
