@@ -207,7 +207,10 @@ typedef struct ves_search_cursor {
 bool ves_search_block_read(const void *block, size_t size, int n, int m, ves_search_cursor *cursor,
                            ves_record *record);
 
-/* A distinct feasible end of the search: within 1e-3 of the ranges (variables that the objective does not
+/* Of the ranges: ends that are nearer than this in every variable are one optimum. */
+#define VES_ONE_OPTIMUM 1e-3
+
+/* A distinct feasible end of the search: within VES_ONE_OPTIMUM (variables that the objective does not
  * feel left out) of no better one, nor the `same` as one. With gradients an end where the slope has not
  * vanished, as at a kink, is one only as the best of all. */
 typedef struct ves_optimum {

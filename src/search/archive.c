@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-static const double near = 1e-3; /* of the ranges: the same optimum */
-
 bool ves_archive_create(ves_archive *archive, ves_session *session, int room)
 {
     *archive = (ves_archive){.session = session, .room = room};
@@ -15,7 +13,7 @@ bool ves_archive_create(ves_archive *archive, ves_session *session, int room)
 bool ves_archive_near(const ves_archive *archive, const ves_point *a, const ves_point *b)
 {
     for (int i = 0; i < archive->session->n; i++)
-        if (!(fabs(a->u[i] - b->u[i]) <= near)) return false;
+        if (!(fabs(a->u[i] - b->u[i]) <= VES_ONE_OPTIMUM)) return false;
     return true;
 }
 

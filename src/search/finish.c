@@ -6,7 +6,6 @@
 
 /* What a search ends in: the proved best, the distinct ends, the result. */
 
-static const double near = 1e-3;    /* of the ranges: the same optimum */
 static const double level = 1e-6;   /* relative: values that may belong to one flat optimum */
 static const double barrier = 1e-9; /* relative: what lies between two points of one basin */
 static const double golden = 0.61803398874989485;
@@ -65,7 +64,7 @@ static bool close_by(const ves_session *session, const ves_point *a, const ves_p
 {
     double apart = 0;
     for (int i = 0; i < session->n; i++) apart = fmax(apart, fabs(a->u[i] - b->u[i]));
-    return apart < near;
+    return apart < VES_ONE_OPTIMUM;
 }
 
 typedef struct clusters {

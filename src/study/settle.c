@@ -8,8 +8,6 @@
 
 enum { POLISH_LEAST = 10 }; /* evaluations for each variable, as a polish itself counts */
 
-static const double SAME = 1e-3; /* of the ranges, as a search tells optima apart */
-
 ves_status ves_settle_grid(const ves_run *run, int grid[2], double *change)
 {
     VES_TRY(ves_plan_choose(run->problem, run->best.x, grid, change));
@@ -36,7 +34,7 @@ bool ves_settle_search(const ves_search_options *search, const ves_run *run, lon
 static int nearest(const ves_run *run, const double *x)
 {
     int found = -1;
-    double least = SAME;
+    double least = VES_ONE_OPTIMUM;
     for (int k = 0; k < run->optima; k++) {
         double apart = 0;
         for (int i = 0; i < run->problem->variables; i++) {
