@@ -63,6 +63,7 @@ Test(cli, every_mistake_has_its_exit_code_and_a_hint)
         {"journal", 2, "something is missing"},
         {"journal runs/a", 2, "cannot read \"runs/a/journal\""},
         {"journal runs/a --to vtp", 2, "csv or jsonl"},
+        {"journal runs/a --png a.png --to csv", 2, "one of them"},
         {"run .", 2, "is a folder"},
         {"run a.yaml --plugin ./none.so", 2, "cannot load the plugin"},
     };

@@ -121,6 +121,27 @@ Test(cli_resume, a_journal_can_be_read)
     root_remove();
 }
 
+/* Drawn, of a run with more candidates than the picture has room for, too; where nothing is feasible it is told. */
+Test(cli_resume, a_journal_can_be_drawn)
+{
+    root_make();
+    expect(vesica(NULL, "run " PROBLEMS "curvature.yaml --evaluations 20000 --out run"), 0, NULL, NULL,
+           "run");
+    outcome o = vesica(NULL, "journal run --png run.svg");
+    cr_expect(o.code == 0 && strcmp(o.out, "run.svg\n") == 0, "%d: %s", o.code, o.out);
+    done(&o);
+    char *picture = slurp("run.svg");
+    cr_expect(strncmp(picture, "<?xml", 5) == 0 && strstr(picture, "</svg>"));
+    free(picture);
+    expect(vesica(NULL, "journal run --png run.vtp"), 2, NULL, "ends in .png, .svg or .pdf", "ending");
+    expect(vesica(NULL, "run " PROBLEMS
+                        "bottle.yaml --evaluations 60 --set constraints=[volume<=0.01,area>=20] --out none"),
+           1, NULL, NULL, "nothing is feasible");
+    expect(vesica(NULL, "journal none --png none.png"), 2, NULL, "no feasible candidate", "nothing to draw");
+    cr_expect(access("none.png", F_OK) != 0);
+    root_remove();
+}
+
 static void build_plugin(const char *name, const char *defines)
 {
     char command[1200];

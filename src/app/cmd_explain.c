@@ -7,6 +7,7 @@
 #include "app/app.h"
 #include "bridge/bridge.h"
 #include "problem/schema.h"
+#include "study/ranks.h"
 #include "suite/landscape.h"
 
 enum { TOPICS = 128 };
@@ -93,7 +94,8 @@ int app_version(app *a)
     snprintf(nlopt, sizeof nlopt, "%d.%d.%d", major, minor, patch);
     const char *part[][2] = {{"vesica", VESICA_VERSION},        {"compiler", __VERSION__},
                              {"CGAL", ves_bridge_version()},    {"NLopt", nlopt},
-                             {"cairo", cairo_version_string()}, {"libyaml", yaml_get_version_string()}};
+                             {"cairo", cairo_version_string()}, {"libyaml", yaml_get_version_string()},
+                             {"MPI", ves_ranks_mpi()}};
     enum { PARTS = sizeof part / sizeof *part };
     ves_json json = {.out = stdout};
     if (a->options.json) ves_json_object(&json, NULL);

@@ -5,7 +5,7 @@
 #include "app/app.h"
 #include "base/diag.h"
 #include "base/text.h"
-#include "study/entries.h"
+#include "study/convergence.h"
 
 /* --- CSV --- */
 
@@ -85,13 +85,19 @@ int app_journal(app *a)
 {
     ves_entries entries;
     ves_entry entry;
+    if (a->options.png && a->options.to)
+        return app_fail(a, VES_USAGE, "--png draws the journal, --to %s prints it: one of them",
+                        a->options.to);
     int format = a->options.to ? ves_words_find("csv|jsonl", a->options.to) : 0;
     if (format < 0)
         return app_fail(a, VES_USAGE, "vesica journal writes csv or jsonl, not \"%s\"", a->options.to);
     ves_status status = ves_entries_open(&entries, a->operand[0], &a->arena, a->diag);
     if (status != VES_OK) return status == VES_IO ? APP_WRONG : app_code(status);
-    if (format == 0) csv_head(&entries);
-    while (!ferror(stdout) && ves_entries_next(&entries, &entry))
+    if (a->options.png)
+        status = ves_convergence_write(&entries, a->options.png, &a->arena, a->diag);
+    else if (format == 0)
+        csv_head(&entries);
+    while (!a->options.png && !ferror(stdout) && ves_entries_next(&entries, &entry))
         (format ? json_line : csv_line)(&entries, &entry);
     long torn = ves_entries_torn(&entries);
     if (torn > 0)
@@ -100,5 +106,6 @@ int app_journal(app *a)
                      entries.path);
     int code = torn < 0 ? app_fail(a, VES_IO, "cannot read \"%s\" to its end", entries.path) : APP_DONE;
     ves_entries_close(&entries);
-    return code;
+    if (a->options.png && status == VES_OK) printf("%s\n", a->options.png);
+    return status == VES_OK ? code : app_code(status);
 }

@@ -35,10 +35,11 @@ const app_command app_commands[] = {
      "feasible: the constraints hold. Whether the surface crosses itself and a finer grid agrees is looked "
      "at by\n"
      "`vesica check`, and by a run for its bests."},
-    {"journal", "journal RUN", "all evaluations of a run, one a line", 1, 1, "to", app_journal,
+    {"journal", "journal RUN", "all evaluations of a run, one a line", 1, 1, "to|png", app_journal,
      "In SI units, as in result.json, with the sign of the goal. A constraint's column says by how much it "
      "is missed,\n"
-     "relative to its size: 0 or less is met. T: temperature; stage and chain as in trace.jsonl."},
+     "relative to its size: 0 or less is met. T: temperature; stage and chain as in trace.jsonl.\n"
+     "--png draws how the run came to its best: the best feasible value and what was accepted, over the evaluations."},
     {"sample", "sample FILE|RUN", "exact points and derivatives of one patch, as CSV", 1, 1,
      "set|start|plugin|patch|points|spine", app_sample,
      "u runs from 0 to 1 along the patch and v from 0 to 2 pi round it, also where a `domain` gives the "

@@ -243,7 +243,7 @@ static const option table[] = {
     {"to", "FORMAT[,FORMAT]", "see vesica list formats; a journal: csv (unless said), jsonl", take_to},
     {"unit", "UNIT", "of the lengths in the files: mm, cm ...; m, unless said, whatever the problem file writes", take_unit},
     {"grid", "NUxNV", "cells along u and v of each patch", take_grid},
-    {"png", "FILE", "where to; the ending png, svg or pdf says what (NAME.png)", take_png},
+    {"png", "FILE", "where to; the ending png, svg or pdf says what (a shape: NAME.png unless said)", take_png},
     {"colour", "patch|H|K|k1|k2", "what the colours show: patches, or the mean (H, unless said), Gauss, largest or least curvature", take_colour},
     {"view", "AZIMUTH,HEIGHT", "where the viewer stands, in degrees", take_view},
     {"reference", NULL, "the reference chapter of the manual instead, in Markdown", take_reference},

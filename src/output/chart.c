@@ -132,8 +132,8 @@ static bool shown(const ves_chart *chart, double x, double y)
 
 static void mark_draw(cairo_t *c, ves_chart_mark mark, double x, double y)
 {
-    if (mark == VES_MARK_DOT) {
-        cairo_arc(c, x, y, 2.5, 0, 2 * acos(-1));
+    if (mark != VES_MARK_CROSS) {
+        cairo_arc(c, x, y, mark == VES_MARK_DOT ? 2.5 : 1.2, 0, 2 * acos(-1));
         cairo_fill(c);
         return;
     }
@@ -147,7 +147,7 @@ static void mark_draw(cairo_t *c, ves_chart_mark mark, double x, double y)
 static void marks_draw(cairo_t *c, const ves_chart *chart, int index)
 {
     const ves_chart_line *l = &chart->line[index];
-    colour(c, l->mark == VES_MARK_CROSS ? ink : ves_colour_patch(index), 1);
+    colour(c, l->mark == VES_MARK_CROSS ? ink : ves_colour_patch(index), l->mark == VES_MARK_SPECK ? 0.5 : 1);
     cairo_set_line_width(c, 1.5);
     for (int k = 0; k < l->count && l->mark != VES_MARK_NONE; k++)
         if (shown(chart, l->x[k], l->y[k])) mark_draw(c, l->mark, px(chart, l->x[k]), py(chart, l->y[k]));
@@ -156,7 +156,7 @@ static void marks_draw(cairo_t *c, const ves_chart *chart, int index)
 static void line_draw(cairo_t *c, const ves_chart *chart, int index)
 {
     const ves_chart_line *l = &chart->line[index];
-    if (l->mark == VES_MARK_CROSS) return;
+    if (l->mark == VES_MARK_CROSS || l->mark == VES_MARK_SPECK) return;
     bool pen = false;
     for (int k = 0; k < l->count; k++) {
         if (!shown(chart, l->x[k], l->y[k])) {
@@ -202,17 +202,18 @@ static void legend(cairo_t *c, const ves_chart *chart)
     for (int k = 0; k < chart->lines; k++) {
         double x = WIDTH - RIGHT + 18, y = TOP + 12 + 20.0 * k;
         if (y > HEIGHT - 10) break;
-        const bool cross = chart->line[k].mark == VES_MARK_CROSS;
-        colour(c, cross ? ink : ves_colour_patch(k), 1);
+        const ves_chart_mark mark = chart->line[k].mark;
+        const bool alone = mark == VES_MARK_CROSS || mark == VES_MARK_SPECK;
+        colour(c, mark == VES_MARK_CROSS ? ink : ves_colour_patch(k), 1);
         cairo_set_line_width(c, 2);
         dashes(c, k);
-        if (!cross) {
+        if (!alone) {
             cairo_move_to(c, x, y - 4);
             cairo_line_to(c, x + 26, y - 4);
             cairo_stroke(c);
         }
         cairo_set_dash(c, NULL, 0, 0);
-        if (cross) mark_draw(c, VES_MARK_CROSS, x + 13, y - 4);
+        if (alone) mark_draw(c, mark, x + 13, y - 4);
         colour(c, ink, 1);
         words(c, x + 34, y, 0, chart->line[k].name);
     }

@@ -6,8 +6,8 @@
 
 #include "vesica/diag.h"
 
-/* What stands at each point: CROSS without a line between them. */
-typedef enum ves_chart_mark { VES_MARK_NONE, VES_MARK_DOT, VES_MARK_CROSS } ves_chart_mark;
+/* What stands at each point: CROSS and SPECK, a faint dot, without a line between them. */
+typedef enum ves_chart_mark { VES_MARK_NONE, VES_MARK_DOT, VES_MARK_CROSS, VES_MARK_SPECK } ves_chart_mark;
 
 typedef struct ves_chart_line {
     const char *name;

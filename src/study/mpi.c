@@ -7,6 +7,14 @@
 /* Messages are rows of eight bytes, so that a count of MPI reaches to 16 GB. */
 enum { UNIT = 8, RANKS_MOST = 4096 };
 
+#define TEXT(word)            #word
+#define VERSION(major, minor) TEXT(major) "." TEXT(minor)
+
+const char *ves_mpi_version(void)
+{
+    return VERSION(MPI_VERSION, MPI_SUBVERSION);
+}
+
 static ves_status exchange(void *data, const void *mine, size_t size, const void **all, size_t *total)
 {
     ves_ranks *r = data;

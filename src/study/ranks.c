@@ -20,6 +20,15 @@ int ves_ranks_asked(int *rank)
     return ranks > 1 ? ranks : 1;
 }
 
+const char *ves_ranks_mpi(void)
+{
+#ifdef VESICA_MPI
+    return ves_mpi_version();
+#else
+    return "none";
+#endif
+}
+
 ves_status ves_ranks_begin(ves_ranks *ranks, ves_diag *diag)
 {
     *ranks = (ves_ranks){0};
