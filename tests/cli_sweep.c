@@ -392,3 +392,62 @@ Test(cli_sweep, one_process_at_a_time)
     cr_expect(count_of("busy/points.jsonl", "\n") > 0 && count_of("busy/points.jsonl", "\n") < 8002);
     root_remove();
 }
+
+/* Every point of a sweep, and every optimum of a run, can be where another command begins. */
+Test(cli_sweep, begins_elsewhere)
+{
+    root_make();
+    write_file("can.yaml", can);
+    write_file("b.yaml", branches);
+    expect(vesica(NULL, "sweep can.yaml --over A=8..44:4 --out front"), 1, NULL, NULL, "front");
+    lines *l = lines_of("front/points.jsonl");
+    outcome o = vesica(NULL, "eval can.yaml --set A=20 --start front:1 --json");
+    json j = json_of(o.out);
+    for (int k = 0; k < 2; k++)
+        cr_expect(number(&j, "variables", k ? "r" : "h") == number(&l->line[1], "variables", k ? "r" : "h"));
+    json_done(&j);
+    done(&o);
+    lines_done(l);
+    expect(vesica(NULL, "eval can.yaml --start front"), 2, NULL, "say which of its points, --start front:N",
+           "none");
+    expect(vesica(NULL, "eval can.yaml --start front:4"), 2, NULL, "there is no point 4", "beyond");
+    expect(vesica(NULL, "eval can.yaml --start front:3"), 2, NULL, "point 3 of the sweep \"front\" is lost",
+           "lost");
+    expect(vesica(NULL, "run b.yaml --set t=0.1 --out run"), 0, NULL, NULL, "run");
+    o = vesica(NULL, "eval b.yaml --start run:2 --json");
+    j = json_of(o.out);
+    cr_expect(fabs(number(&j, "variables", "x") - root_of(0.1, 1)) < 1e-5,
+              "the shallower well is the second optimum");
+    json_done(&j);
+    done(&o);
+    expect(vesica(NULL, "eval b.yaml --start run:3"), 2, NULL, "has no optimum 3: it has found 2",
+           "optimum 3");
+    expect(vesica(NULL, "eval b.yaml --start run:0"), 2, NULL, "has no optimum 0", "optimum 0");
+    expect(vesica(NULL, "check b.yaml"), 0, "over t, 5 values, for 2 of s: 40 points in 8 walks", NULL,
+           "check");
+    root_remove();
+}
+
+/* Ranges that depend on the parameter: where the neighbour's best lies beyond them, the search begins at their end. The
+ * best radius is 1/sqrt(2), or the largest there is. */
+Test(cli_sweep, ranges_that_move)
+{
+    root_make();
+    char text[4000];
+    snprintf(text, sizeof text, "vesica: 1\nparameters: {A: 3*pi, R: 1}\n%s", CAN);
+    char *range = strstr(text, "1.1]");
+    cr_assert(range != NULL);
+    memcpy(range, "  R]", 4);
+    write_file("can.yaml", text);
+    expect(vesica(NULL, "sweep can.yaml --over R=1..0.6:5 --out m"), 0, NULL, NULL, "m");
+    lines *l = lines_of("m/points.jsonl");
+    cr_assert(l->count == 5);
+    for (int k = 0; k < 5; k++) {
+        double r = fmin(1 - k * 0.1, 1 / sqrt(2)), h = 1.5 / r - r;
+        cr_expect(!strcmp(word(&l->line[k], "direction"), "down"));
+        cr_expect(fabs(number(&l->line[k], "variables", "r") - r) < 1e-5, "%d", k);
+        cr_expect(fabs(number(&l->line[k], "objective", NULL) - VES_PI * r * r * h) < 1e-6, "%d", k);
+    }
+    lines_done(l);
+    root_remove();
+}

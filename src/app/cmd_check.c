@@ -213,6 +213,22 @@ static void proposals(const checked *c)
     }
 }
 
+/* What vesica sweep would do. */
+static void sweeps(const ves_problem *p)
+{
+    const ves_sweep_def *s = p->sweep;
+    char points[64], walks[64];
+    if (!s) return;
+    long walked = (s->branches ? s->branches : 1) * (s->forth + s->back), all = s->axis[0].count;
+    printf("  sweep        over %s, %d values", s->axis[0].name, s->axis[0].count);
+    if (s->axes > 1) {
+        printf(", for %d of %s", s->axis[1].count, s->axis[1].name);
+        walked *= s->axis[1].count;
+    }
+    printf(": %s in %s (vesica sweep)\n", app_screen_plural(all * walked, "point", "points", points),
+           app_screen_plural(walked, "walk", "walks", walks));
+}
+
 static void json_three(ves_json *json, const char *name, const double value[3])
 {
     ves_json_array(json, name);
@@ -288,6 +304,7 @@ static int report(app *a, checked *c)
         app_screen_joints(c->run, stdout);
         costs(c);
         proposals(c);
+        sweeps(c->run->problem);
     }
     return c->run->any && c->run->proof == VES_OK ? APP_DONE : APP_UNMET;
 }

@@ -225,7 +225,7 @@ FLAG(help)
 static const option table[] = {
     {"set", "NAME=VALUE", "instead of what the file says: the start of a variable, a parameter, or a path of keys (patches.wall.operator.a)", take_set},
     {"over", "NAME=FROM..TO:COUNT", "which parameter takes which values, instead of what `sweep` in the file says; or NAME=VALUE,VALUE,...; twice: the first is walked along, for each value of the second", take_over},
-    {"start", "RUN", "begin at the best design of that run", take_start},
+    {"start", "RUN[:K]", "begin at the best design of that run, or at its optimum K; or SWEEP:N, at point N of a sweep", take_start},
     {"seed", "N", "of the random numbers; same seed, same result", take_seed},
     {"evaluations", "N", "budget of the search", take_evaluations},
     {"jobs", "N", "threads (all of the machine); the result does not depend on it", take_jobs},

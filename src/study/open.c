@@ -7,17 +7,10 @@
 #include "base/diag.h"
 #include "base/text.h"
 #include "problem/tree.h"
+#include "study/best.h"
 #include "study/folder.h"
 
 enum { LIMIT = 64 * 1024 * 1024, NUMBER = 96 };
-
-/* The best design that a run folder keeps: names and numbers as they are written there. */
-typedef struct best {
-    const char *run;
-    const ves_node *variables;
-    const ves_node *plugins; /* the files of the measures that it needs, or NULL */
-    bool other;              /* of another problem, perhaps: it may lack variables */
-} best;
 
 /* Where a problem is read from, more than once: stdin cannot be. */
 typedef struct source {
@@ -62,30 +55,7 @@ const ves_node *ves_study_json(const char *text, size_t length, ves_arena *arena
     return read && root && root->kind == VES_NODE_MAP ? root : NULL;
 }
 
-static ves_status best_read(const char *run, ves_arena *arena, best *out, ves_diag *diag)
-{
-    char *path = ves_folder_path(run, "result.json", arena), *text = NULL;
-    size_t length = 0;
-    *out = (best){.run = run};
-    if (!path) return ves_diag_fail(diag, VES_MEMORY);
-    errno = 0;
-    ves_status status = ves_study_load(path, arena, &text, &length);
-    if (status == VES_MEMORY) return ves_diag_fail(diag, VES_MEMORY);
-    if (status != VES_OK)
-        return ves_diag_add(diag, VES_ERROR, VES_IO, NOWHERE,
-                            "\"%s\" is not the folder of a finished run: \"%s\" cannot be read: %s", run,
-                            path, errno ? strerror(errno) : "it is no file of a run");
-    const ves_node *root = ves_study_json(text, length, arena);
-    if (!root)
-        return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE,
-                            "\"%s\" is damaged or not whole: run \"%s/problem.yaml\" again", path, run);
-    out->variables = ves_node_find(root, "variables");
-    out->plugins = ves_node_find(root, "plugins");
-    if (out->variables && out->variables->kind == VES_NODE_MAP) return VES_OK;
-    return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE, "\"%s\" holds no variables", path);
-}
-
-/* --- its numbers as overrides --- */
+/* --- the numbers of a run as overrides --- */
 
 const char *ves_study_quantity(const char *number, ves_dim dim, const ves_shown *shown, ves_arena *arena)
 {
@@ -104,7 +74,7 @@ static bool is_number(const ves_node *node)
 }
 
 /* The names that the run has not. */
-static char *missing(const best *b, const ves_problem *problem, ves_arena *arena, int *count)
+static char *missing(const ves_best *b, const ves_problem *problem, ves_arena *arena, int *count)
 {
     char *list = ves_arena_text(arena, "", 0);
     *count = 0;
@@ -118,7 +88,8 @@ static char *missing(const best *b, const ves_problem *problem, ves_arena *arena
 }
 
 /* A start from another problem may leave some variables at the start of the file, but not all. */
-static ves_status missing_tell(const best *b, const ves_problem *problem, ves_arena *arena, ves_diag *diag)
+static ves_status missing_tell(const ves_best *b, const ves_problem *problem, ves_arena *arena,
+                               ves_diag *diag)
 {
     int count;
     const char *list = missing(b, problem, arena, &count);
@@ -137,7 +108,7 @@ static ves_status missing_tell(const best *b, const ves_problem *problem, ves_ar
 }
 
 /* Appends one override for each variable of the problem that the run has. */
-static ves_status best_apply(const best *b, const ves_problem *problem, ves_arena *arena,
+static ves_status best_apply(const ves_best *b, const ves_problem *problem, ves_arena *arena,
                              ves_override *override, int *count, ves_diag *diag)
 {
     *count = 0;
@@ -164,7 +135,7 @@ static ves_status read(const source *from, const ves_read_options *options, ves_
 }
 
 /* Reads the problem twice: first to learn its variables and their dimensions. */
-static ves_status read_at(const source *from, const best *b, const ves_read_options *options,
+static ves_status read_at(const source *from, const ves_best *b, const ves_read_options *options,
                           ves_opened *opened, ves_diag *diag)
 {
     ves_arena *arena = &opened->arena;
@@ -201,7 +172,7 @@ static const char *last_part(const char *path, ves_arena *arena)
 }
 
 /* What cannot be read may only lack the measures that the run was made with. */
-static void plugins_tell(const best *b, const char *folder, ves_arena *arena, ves_diag *diag)
+static void plugins_tell(const ves_best *b, const char *folder, ves_arena *arena, ves_diag *diag)
 {
     char *list = ves_arena_text(arena, "", 0);
     if (!b->plugins || b->plugins->kind != VES_NODE_LIST) return;
@@ -226,12 +197,12 @@ static ves_status name_run(ves_opened *opened, ves_diag *diag)
 static ves_status open_run(const char *path, const ves_open_options *options, ves_opened *opened,
                            ves_diag *diag)
 {
-    best own = {0}, other = {0};
+    ves_best own = {0}, other = {0};
     const source from = {.path = ves_folder_path(path, "problem.yaml", &opened->arena)};
     opened->name = last_part(path, &opened->arena);
     if (!from.path || !opened->name) return ves_diag_fail(diag, VES_MEMORY);
-    ves_status status = best_read(path, &opened->arena, &own, options->start ? NULL : diag);
-    if (options->start) status = best_read(options->start, &opened->arena, &other, diag);
+    ves_status status = ves_best_read(path, &opened->arena, &own, options->start ? NULL : diag);
+    if (options->start) status = ves_best_find(options->start, &opened->arena, &other, diag);
     if (status != VES_OK) return status;
     other.other = true;
     status = read_at(&from, options->start ? &other : &own, &options->read, opened, diag);
@@ -242,9 +213,9 @@ static ves_status open_run(const char *path, const ves_open_options *options, ve
 static ves_status open_source(const source *from, const ves_open_options *options, ves_opened *opened,
                               ves_diag *diag)
 {
-    best b;
+    ves_best b;
     if (options->start) {
-        VES_TRY(best_read(options->start, &opened->arena, &b, diag));
+        VES_TRY(ves_best_find(options->start, &opened->arena, &b, diag));
         b.other = true;
         VES_TRY(read_at(from, &b, &options->read, opened, diag));
     } else {

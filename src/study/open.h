@@ -8,7 +8,7 @@
 
 typedef struct ves_open_options {
     ves_read_options read; /* overrides come after those of a run */
-    const char *start;     /* a run whose best design is the start, or NULL */
+    const char *start;     /* what is the start, as ves_best_find names it; or NULL */
 } ves_open_options;
 
 typedef struct ves_opened {
