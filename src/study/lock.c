@@ -83,3 +83,41 @@ void ves_lock_drop(ves_lock *lock)
     close(lock->fd);
     lock->fd = -1;
 }
+
+static int helpers_open(ves_lock *lock, const char *folder, ves_arena *arena, ves_diag *diag)
+{
+    *lock = (ves_lock){-1, ves_folder_path(folder, "helpers", arena)};
+    if (!lock->path) {
+        ves_diag_fail(diag, VES_MEMORY);
+        return -1;
+    }
+    int fd = open(lock->path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0)
+        ves_diag_add(diag, VES_ERROR, VES_IO, (ves_mark){0}, "cannot write \"%s\": %s", lock->path,
+                     strerror(errno));
+    return fd;
+}
+
+ves_status ves_lock_help(ves_lock *lock, const char *folder, ves_arena *arena, ves_diag *diag)
+{
+    int fd = helpers_open(lock, folder, arena, diag);
+    if (fd < 0) return lock->path ? VES_IO : VES_MEMORY;
+    lock->fd = fd;
+    if (!flock(fd, LOCK_SH | LOCK_NB) || errno != EWOULDBLOCK) return VES_OK;
+    return refuse(fd, folder, diag);
+}
+
+/* The file goes when nobody needs it any more. */
+ves_status ves_lock_alone(const char *folder, ves_arena *arena, ves_diag *diag)
+{
+    ves_lock lock;
+    int fd = helpers_open(&lock, folder, arena, diag);
+    if (fd < 0) return lock.path ? VES_IO : VES_MEMORY;
+    ves_status status = VES_OK;
+    if (flock(fd, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK)
+        status = refuse(fd, folder, diag);
+    else
+        unlink(lock.path);
+    close(fd);
+    return status;
+}

@@ -16,4 +16,9 @@ typedef struct ves_lock {
 ves_status ves_lock_take(ves_lock *lock, const char *folder, ves_arena *arena, ves_diag *diag);
 void ves_lock_drop(ves_lock *lock);
 
+/* Processes that help the one who has the lock (file `helpers`): they may outlive it for a moment. Who takes the folder
+ * next sees whether they are gone: VES_USAGE: not yet. */
+ves_status ves_lock_help(ves_lock *lock, const char *folder, ves_arena *arena, ves_diag *diag);
+ves_status ves_lock_alone(const char *folder, ves_arena *arena, ves_diag *diag);
+
 #endif

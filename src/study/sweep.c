@@ -278,6 +278,7 @@ static ves_status folder_take(whole *w)
     w->shown.folder = folder;
     VES_TRY(ves_lock_take(&w->lock, folder, &w->arena, w->diag));
     if (!o->resume) return ves_sweep_folder_begin(&w->shown, o, &w->arena, w->diag);
+    VES_TRY(ves_lock_alone(folder, &w->arena, w->diag));
     ves_folder_tidy(folder, &w->arena);
     char *shapes = ves_folder_path(folder, "shapes", &w->arena);
     if (shapes) ves_folder_tidy(shapes, &w->arena);
@@ -311,8 +312,15 @@ static ves_status prepare(whole *w)
     return VES_OK;
 }
 
+/* The other ranks, which have no lock of the folder, say that they are there. */
+static ves_status help(whole *w)
+{
+    return leads(w) ? VES_OK : ves_lock_help(&w->lock, w->shown.folder, &w->arena, w->diag);
+}
+
 static ves_status walk(whole *w)
 {
+    VES_TRY(help(w));
     if (w->options->resume) VES_TRY(walks_read(w, false));
     w->shown.before = w->shown.done;
     if (w->hooks->begun) w->hooks->begun(w->hooks->data, &w->shown);

@@ -44,4 +44,32 @@ for signal in KILL TERM; do
     same whole "$run"
   done
 done
+# Sweeps: the walks of one folder.
+sweep() { count=$1 && shift && mpirun --oversubscribe -n "$count" "$build/vesica" sweep "$@" --progress none >out 2>&1; }
+same_sweep() {
+  diff -r --exclude=times.jsonl --exclude=walks "$1" "$2"
+  [ ! -e "$2/lock" ] && [ ! -e "$2/helpers" ]
+}
+cp "$1/problems/vesicle.yaml" membrane.yaml
+printf '%s\n' 'sweep:' '  over: {nu: {from: 0.7, to: 0.9, step: 0.02, walk: both}}' \
+  '  branches: {oblate: {set: {zn: 0.5, zs: -0.5, R: 1.3}}, prolate: {set: {zn: 1.6, zs: -1.6, R: 0.7}}}' >>membrane.yaml
+"$2/vesica" sweep membrane.yaml --out alone --progress none >out 2>&1
+for n in 1 2 3; do
+  sweep $n membrane.yaml --out together$n
+  same_sweep alone together$n
+done
+for signal in KILL TERM; do
+  for n in 2 3; do
+    mpirun --oversubscribe -n $n "$build/vesica" sweep membrane.yaml --out sweep$signal$n --progress none >out 2>&1 &
+    child=$!
+    until [ -s "sweep$signal$n/walks/0001.jsonl" ]; do sleep 0.02; done
+    kill -s $signal $child
+    wait $child && { echo "sweep$signal$n: it was done before" >&2 && exit 1; } || true
+    until sweep $((5 - n)) --resume "sweep$signal$n"; do
+      grep -q 'wait until it is done' out || { cat out >&2 && exit 1; }
+      sleep 0.2
+    done
+    same_sweep alone "sweep$signal$n"
+  done
+done
 echo "1, 2 and 3 ranks: the same bytes"
