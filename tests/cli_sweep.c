@@ -203,6 +203,20 @@ Test(cli_sweep, hysteresis)
     outcome o = vesica(NULL, "sweep w.yaml --out w");
     expect(o, 0, "up and down end at different optima at 7 of 13 values, t = -1.2 ... 1.2",
            "26 points in 2 walks", "well");
+    /* the wells change places at t = 0; their depths, t x + ..., are odd in t up to its third power */
+    o = vesica(
+        NULL,
+        "sweep w.yaml --set sweep.over.t.from=-2.2 --set sweep.over.t.to=2.3 --set sweep.over.t.step=0.5 "
+        "--out odd --json");
+    json odd = json_of(o.out);
+    const ves_node *list = ves_node_find(odd.root, "changes");
+    cr_assert(list && list->count == 1);
+    cr_expect(!strcmp(ves_node_find(list->item[0], "from")->text, "up"));
+    cr_expect(fabs(strtod(ves_node_find(list->item[0], "at")->text, NULL)) < 5e-3);
+    json_done(&odd);
+    done(&o);
+    expect(vesica(NULL, "sweep w.yaml --set sweep.over.t.from=-2.2 --set sweep.over.t.to=2.2 --out even"), 0,
+           "the best goes from up to down between t = -0.2 ... 0.2, their lines cross at ", NULL, "even");
     lines *l = lines_of("w/points.jsonl");
     cr_assert(l->count == 26);
     for (int k = 0; k < 26; k++) {

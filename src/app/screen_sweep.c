@@ -150,6 +150,21 @@ static void merged(const ves_sweep *s, int walk, FILE *out)
     }
 }
 
+static void changes(const ves_sweep *s, int second, FILE *out)
+{
+    const double factor = s->problem->parameter[s->def->axis[0].parameter].shown.factor;
+    ves_sweep_change c;
+    for (int place = 0; ves_sweep_change_find(s, second, place, &c); place = c.place + 1) {
+        char number[32];
+        fprintf(out, "  changes    the best goes from %s to %s between ", s->walk[c.from].name,
+                s->walk[c.to].name);
+        places_print(s, c.place, c.place + 1, out);
+        if (isfinite(c.at))
+            fprintf(out, ", their lines cross at %s", app_screen_number(c.at / factor, number));
+        fputc('\n', out);
+    }
+}
+
 /* --- the best at each value --- */
 
 static int best_at(const ves_sweep *s, int second, int place)
@@ -238,5 +253,6 @@ void app_screen_sweep(const ves_sweep *s, FILE *out)
     for (int w = 0; w < s->walks; w++) lost(s, w, out);
     for (int w = 0; w < s->walks; w++) apart(s, w, out);
     for (int w = 0; w < s->walks; w++) merged(s, w, out);
+    for (int j = 0; j < (s->def->axes > 1 ? s->def->axis[1].count : 1); j++) changes(s, j, out);
     fprintf(out, "  %s/   sweep.csv  sweep.png  shapes.pvd  points.jsonl\n", s->folder);
 }

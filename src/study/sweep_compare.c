@@ -115,3 +115,41 @@ int ves_sweep_apart(const ves_sweep *s, int walk, int other, int *first, int *la
     }
     return count;
 }
+
+/* The first walk whose end is the best at a place, and at `beside` too, if that is not negative; -1: none. */
+static int best_walk(const ves_sweep *s, int second, int place, int beside)
+{
+    for (int w = 0; w < s->walks; w++) {
+        bool best = s->walk[w].second == second && s->point[ves_sweep_point_at(s, w, place)].optimum == 1;
+        if (best && (beside < 0 || s->point[ves_sweep_point_at(s, w, beside)].optimum == 1)) return w;
+    }
+    return -1;
+}
+
+static double objective_at(const ves_sweep *s, int walk, int place)
+{
+    int index = ves_sweep_point_at(s, walk, place);
+    return s->point[index].optimum ? objective(s, index) : NAN;
+}
+
+static double crossing(const ves_sweep *s, const ves_sweep_change *c)
+{
+    const double *value = s->def->axis[0].value + c->place;
+    double before = objective_at(s, c->to, c->place) - objective_at(s, c->from, c->place);
+    double behind = objective_at(s, c->to, c->place + 1) - objective_at(s, c->from, c->place + 1);
+    double part = round(before / (before - behind) * 1e6) / 1e6; /* lines know no more */
+    return value[0] * (1 - part) + value[1] * part;
+}
+
+bool ves_sweep_change_find(const ves_sweep *s, int second, int place, ves_sweep_change *change)
+{
+    for (; place + 1 < s->count; place++) {
+        *change = (ves_sweep_change){.place = place,
+                                     .from = best_walk(s, second, place, -1),
+                                     .to = best_walk(s, second, place + 1, -1)};
+        if (change->from < 0 || change->to < 0 || best_walk(s, second, place, place + 1) >= 0) continue;
+        change->at = crossing(s, change);
+        return true;
+    }
+    return false;
+}

@@ -47,6 +47,26 @@ static void times_fill(const reporter *r, FILE *out)
     }
 }
 
+static void changes_json(const ves_sweep *s, ves_json *json)
+{
+    const ves_sweep_axis *axis = s->def->axis;
+    const int seconds = s->def->axes > 1 ? axis[1].count : 1;
+    ves_sweep_change c;
+    ves_json_array(json, "changes");
+    for (int j = 0; j < seconds; j++)
+        for (int place = 0; ves_sweep_change_find(s, j, place, &c); place = c.place + 1) {
+            ves_json_object(json, NULL);
+            if (s->def->axes > 1) ves_json_number(json, axis[1].name, axis[1].value[j]);
+            ves_json_text(json, "from", s->walk[c.from].name);
+            ves_json_text(json, "to", s->walk[c.to].name);
+            ves_json_number(json, "behind", axis->value[c.place]);
+            ves_json_number(json, "before", axis->value[c.place + 1]);
+            ves_json_number(json, "at", c.at);
+            ves_json_end(json, '}');
+        }
+    ves_json_end(json, ']');
+}
+
 void ves_sweep_json(const ves_sweep *s, ves_json *json)
 {
     ves_json_text(json, "title", s->problem->title);
@@ -56,6 +76,7 @@ void ves_sweep_json(const ves_sweep *s, ves_json *json)
     ves_json_text(json, "version", VESICA_VERSION);
     ves_json_integer(json, "points", points_of(s));
     ves_json_integer(json, "done", s->done);
+    changes_json(s, json);
     ves_json_array(json, "point");
     for (int k = 0; k < points_of(s); k++)
         if (s->point[k].done) ves_sweep_point_json(s, k, true, false, json);

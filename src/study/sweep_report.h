@@ -8,6 +8,17 @@
 /* Which ends at each place are the same, and which is the best. VES_OK or VES_MEMORY. */
 ves_status ves_sweep_compare(ves_sweep *sweep);
 
+/* Between two neighbouring places the best goes from one walk to another: none is best at both. */
+typedef struct ves_sweep_change {
+    int place;    /* the first of the two */
+    int from, to; /* walks */
+    double
+        at; /* the value where straight lines through the objectives of both walks cross, as far as these are known
+                     at both places; else NAN */
+} ves_sweep_change;
+/* The first change at `place` or behind it, of one second value. */
+bool ves_sweep_change_find(const ves_sweep *sweep, int second, int place, ves_sweep_change *change);
+
 /* What `vesica sweep --json` says; inside an object. */
 void ves_sweep_json(const ves_sweep *sweep, ves_json *json);
 
