@@ -111,7 +111,7 @@ static int resume(app *a)
     if (status != VES_OK) return app_code(status);
     const ves_sweep_options options = {.jobs = o->jobs,
                                        .out = o->resume,
-                                       .seeded = true,
+                                       .seeded = about.seeded,
                                        .seed = about.seed,
                                        .resume = true,
                                        .plugin = a->measure,

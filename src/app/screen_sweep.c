@@ -6,7 +6,7 @@
 
 #include "app/table.h"
 
-enum { ROWS = 24, BAR = 30, COLUMNS = 16 };
+enum { ROWS = 24, WALKS = 48, BAR = 30, COLUMNS = 16 };
 
 static void range_print(const ves_sweep *s, int axis, FILE *out)
 {
@@ -67,7 +67,7 @@ static void bar(const ves_sweep *s, int walk, char text[4 * BAR + 1])
 static void walks(const ves_sweep *s, FILE *out)
 {
     app_table t = {.align = "llrl"};
-    for (int w = 0; w < s->walks; w++) {
+    for (int w = 0; w < s->walks && w < WALKS; w++) {
         char text[4 * BAR + 1];
         int done, good = good_of(s, w, &done);
         bar(s, w, text);
@@ -81,6 +81,7 @@ static void walks(const ves_sweep *s, FILE *out)
         app_table_end(&t);
     }
     app_table_print(&t, out);
+    if (s->walks > WALKS) fprintf(out, "  ... and %d walks more\n", s->walks - WALKS);
     fputc('\n', out);
 }
 
@@ -250,9 +251,10 @@ void app_screen_sweep(const ves_sweep *s, FILE *out)
 {
     walks(s, out);
     bests(s, out);
-    for (int w = 0; w < s->walks; w++) lost(s, w, out);
-    for (int w = 0; w < s->walks; w++) apart(s, w, out);
-    for (int w = 0; w < s->walks; w++) merged(s, w, out);
+    const int shown = s->walks < WALKS ? s->walks : WALKS;
+    for (int w = 0; w < shown; w++) lost(s, w, out);
+    for (int w = 0; w < shown; w++) apart(s, w, out);
+    for (int w = 0; w < shown; w++) merged(s, w, out);
     for (int j = 0; j < (s->def->axes > 1 ? s->def->axis[1].count : 1); j++) changes(s, j, out);
     fprintf(out, "  %s/   sweep.csv  sweep.png  shapes.pvd  points.jsonl\n", s->folder);
 }

@@ -32,6 +32,7 @@ typedef struct whole {
     ves_pool *pool;
     ves_lock lock;
     ves_status status; /* the first failure; under the pool's lock */
+    bool told;         /* the points have been compared: there is something to show */
 } whole;
 
 /* --- the shape of it --- */
@@ -341,6 +342,7 @@ static ves_status work(whole *w)
         w->shown.wall = ves_study_clock() - begin;
         if (read == VES_OK && ves_sweep_compare(&w->shown) != VES_OK)
             read = ves_diag_fail(w->diag, VES_MEMORY);
+        w->told = read == VES_OK;
         if (read == VES_OK) read = ves_sweep_report_write(&w->shown, w->diag);
         if (read != VES_OK) status = read;
     }
@@ -382,7 +384,7 @@ ves_status ves_sweep_run(const ves_problem *problem, const ves_sweep_options *op
     w->task = (ves_sweep_task){.sweep = &w->shown, .options = options, .hooks = hooks};
     ves_status status = work(w);
     ves_lock_drop(&w->lock);
-    if (leads(w) && w->shown.done)
+    if (w->told)
         *sweep = &w->shown;
     else
         ves_sweep_destroy(&w->shown);

@@ -81,7 +81,7 @@ typedef struct ves_sweep_options {
     const ves_team *team;             /* NULL: alone. All ranks see the same folder */
 } ves_sweep_options;
 
-/* The problem must outlive the sweep. *sweep is not NULL where there are points to show, also after
+/* The problem must outlive the sweep. *sweep is not NULL where there is something to show, also after
  * VES_INTERRUPTED and when a file could not be written; on ranks other than 0 it is always NULL. */
 ves_status ves_sweep_run(const ves_problem *problem, const ves_sweep_options *options,
                          const ves_sweep_hooks *hooks, ves_sweep **sweep, ves_diag *diag);

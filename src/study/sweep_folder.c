@@ -37,7 +37,8 @@ static ves_status about_write(const ves_sweep *sweep, const ves_sweep_options *o
     ves_json_object(&json, NULL);
     ves_json_text(&json, "version", VESICA_VERSION);
     ves_json_text(&json, "problem", sweep->problem->path);
-    ves_json_count(&json, "seed", o->seeded ? o->seed : sweep->problem->search.seed);
+    ves_json_flag(&json, "seeded", o->seeded); /* else the file tells, which a branch may set */
+    ves_json_count(&json, "seed", o->seed);
     ves_status status = ves_saved_plugins_write(sweep->problem, arena, &json);
     ves_json_array(&json, "walks");
     for (int k = 0; k < sweep->walks; k++) ves_json_text(&json, NULL, sweep->walk[k].name);
@@ -291,7 +292,7 @@ static ves_status about_fill(const ves_node *root, const char *folder, ves_arena
             VES_OK)
         return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE, "\"%s/sweep.json\" is damaged or not whole",
                             folder);
-    about->seeded = true;
+    about->seeded = ves_json_true(root, "seeded");
     about->seed = strtoull(seed, NULL, 10);
     if (!strcmp(version, VESICA_VERSION)) return VES_OK;
     return ves_diag_add(diag, VES_ERROR, VES_STALE, NOWHERE,
