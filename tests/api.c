@@ -305,12 +305,8 @@ Test(api, a_run_finds_the_best_and_tells_all_about_it)
 {
     ves_problem *problem = read_file("bottle");
     ves_run *run;
-    static const ves_search_options stages;
-    static const ves_run_options wrong[] = {{.evaluations = -1},
-                                            {.jobs = -1},
-                                            {.trace = (ves_trace)9},
-                                            {.trace = (ves_trace)-1},
-                                            {.search = &stages, .files = true}};
+    static const ves_run_options wrong[] = {
+        {.evaluations = -1}, {.jobs = -1}, {.trace = (ves_trace)9}, {.trace = (ves_trace)-1}};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++)
         cr_expect_eq(ves_run_create(problem, &wrong[k], NULL, &run, NULL), VES_RANGE);
     cr_assert_eq(ves_run_create(problem, NULL, NULL, &run, NULL), VES_OK);
@@ -333,16 +329,8 @@ Test(api, a_run_finds_the_best_and_tells_all_about_it)
     for (int k = 0; k < run->notes; k++) cr_expect(strlen(run->note[k]) > 0);
     for (int k = 0; k < run->failures; k++) cr_expect(run->failure[k].count > 0 && run->failure[k].status);
     cr_expect(run->times.wall >= run->times.search && run->times.stages == 2);
-    long evaluations = run->evaluations;
     ves_run_destroy(run);
     ves_run_destroy(NULL);
-    /* stages of one's own instead of `auto`, with the seed of the file */
-    ves_search_options polish = {.stages = 1, .seed = 5};
-    polish.stage[0].kind = VES_STAGE_POLISH;
-    cr_assert_eq(ves_run_create(problem, &(ves_run_options){.search = &polish}, NULL, &run, NULL), VES_OK);
-    cr_expect(run->times.stages == 1 && run->seed == 1 && run->evaluations < evaluations / 4);
-    cr_expect(run->feasible && fabs(run->best.objective - PI / sqrt(2)) < 1e-9);
-    ves_run_destroy(run);
     ves_problem_destroy(problem);
 }
 

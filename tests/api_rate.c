@@ -1,4 +1,4 @@
-/* What the limits of a problem file cost, through the public headers alone. */
+/* What the limits of a problem file cost, and runs by stages of one's own, through the public headers alone. */
 #include <criterion/criterion.h>
 #include <math.h>
 #include <stdio.h>
@@ -108,6 +108,23 @@ Test(api_rate, a_run_tells_how_far_its_best_can_be_trusted)
                   run->evidence.unseen < 0.01,
               "%s", run->evidence.sentence);
     cr_expect(run->evaluations < 3000 && run->strategies > 1 && run->strategy[1].evaluations > 0);
+    ves_run_destroy(run);
+    ves_problem_destroy(problem);
+}
+
+/* Stages of one's own instead of those of the file, with its seed; a folder would not keep them. */
+Test(api_rate, a_run_takes_stages_of_ones_own)
+{
+    ves_problem *problem = NULL;
+    ves_run *run = NULL;
+    ves_search_options polish = {.stages = 1, .seed = 5};
+    polish.stage[0].kind = VES_STAGE_POLISH;
+    cr_assert_eq(ves_problem_read(VESICA_SOURCE "/problems/bottle.yaml", NULL, &problem, NULL), VES_OK);
+    const ves_run_options kept = {.search = &polish, .files = true}, free = {.search = &polish};
+    cr_expect_eq(ves_run_create(problem, &kept, NULL, &run, NULL), VES_RANGE);
+    cr_assert_eq(ves_run_create(problem, &free, NULL, &run, NULL), VES_OK);
+    cr_expect(run->times.stages == 1 && run->seed == 1 && run->evaluations < 300 && run->strategies == 0);
+    cr_expect(run->feasible && fabs(run->best.objective - PI / sqrt(2)) < 1e-9);
     ves_run_destroy(run);
     ves_problem_destroy(problem);
 }
