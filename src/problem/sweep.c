@@ -121,7 +121,9 @@ static void walk_read(axes *a, const ves_field *walk, const ves_sweep_axis *axis
         ves_reader_error(a->reader, VES_SYNTAX, walk->node, "\"walk\" goes with the first parameter only");
         return;
     }
-    int way = ves_reader_choice(a->reader, walk->node, walk->key);
+    ves_key key = *walk->key; /* it has no default, but must have one after an error */
+    key.fallback = UP;
+    int way = ves_reader_choice(a->reader, walk->node, &key);
     bool rises = axis->value[1] > axis->value[0];
     sweep->forth = way == BOTH || (way == UP) == rises;
     sweep->back = way == BOTH || (way == UP) != rises;
