@@ -182,6 +182,8 @@ Test(cli_resume, mpirun_is_recognised)
     setenv("OMPI_COMM_WORLD_RANK", "0", 1);
     expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --no-files"), 2, NULL,
            "one of 2 processes that mpirun has started, but this build of vesica has no MPI", "rank 0");
+    expect(vesica(NULL, "sweep " PROBLEMS "bottle.yaml"), 2, NULL, "this build of vesica has no MPI",
+           "sweep");
     setenv("OMPI_COMM_WORLD_RANK", "1", 1);
     outcome o = vesica(NULL, "run " PROBLEMS "bottle.yaml --no-files");
     cr_expect(o.code == 2 && strlen(o.out) == 0 && strlen(o.err) == 0, "%s%s", o.out, o.err);
