@@ -75,7 +75,7 @@ class Report:
                     continue
                 first = p["first"] == m
                 other, effect = p["second" if first else "first"], p["a12"] if first else 1 - p["a12"]
-                if p["verdict"] == "no difference shown":
+                if not p["verdict"].startswith("the "):
                     alike.append("`%s`" % other)
                 elif p["verdict"].startswith("the second" if first else "the first"):
                     better.append("`%s` (%.2f)" % (other, 1 - effect))

@@ -81,7 +81,8 @@ Test(cli_resume, what_cannot_go_on_says_what_to_do)
            "volume", NULL, "none");
     cr_expect(access("none/journal", F_OK) != 0);
     expect(vesica(NULL, "run --resume none"), 2, NULL, "keeps no journal (--journal none)", "none");
-    expect(vesica(NULL, "journal none"), 2, NULL, "cannot read \"none/journal\"", "none");
+    expect(vesica(NULL, "journal none"), 2, NULL,
+           "the run \"none\" has no journal: it was made with --journal none", "none");
     expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --evaluations 300 --out all"), 0, "volume", NULL, "all");
     write_file("all/result.json", "{");
     write_file("all/journal", "something else");

@@ -49,7 +49,7 @@ static long search(const task *k, uint64_t seed)
     trial t = {0};
     double lower[MOST] = {0}, upper[MOST], start[MOST];
     const ves_landscape *landscape = ves_landscape_find(k->name);
-    cr_assert(ves_instance_init(&arena, landscape, k->n, k->turned, (int)seed, &t.instance) == VES_OK);
+    cr_assert(ves_instance_init(&arena, landscape, k->n, k->turned, 1, (int)seed, &t.instance) == VES_OK);
     for (int i = 0; i < k->n; i++) upper[i] = 1;
     ves_instance_start(seed, 0, k->n, start);
     const ves_search_problem problem = {.n = k->n,

@@ -33,7 +33,7 @@ static void for_all(void (*look)(const ves_instance *it))
                 ves_arena arena = {0};
                 ves_instance it;
                 if (!ves_landscape_takes(*l, sizes[k])) continue;
-                cr_assert(ves_instance_init(&arena, *l, sizes[k], turned, 2, &it) == VES_OK);
+                cr_assert(ves_instance_init(&arena, *l, sizes[k], turned, 1, 2, &it) == VES_OK);
                 cr_assert(it.m <= M);
                 look(&it);
                 seen++;
@@ -217,13 +217,15 @@ Test(suite_instance, turns_are_orthogonal_and_instances_differ)
 {
     for (int n = 1; n <= 40; n += 13) {
         ves_arena arena = {0};
-        ves_instance a, b, again;
+        ves_instance a, b, again, other;
         const ves_landscape *l = ves_landscape_find("rastrigin");
-        cr_assert(ves_instance_init(&arena, l, n, true, 0, &a) == VES_OK);
-        cr_assert(ves_instance_init(&arena, l, n, true, 1, &b) == VES_OK);
-        cr_assert(ves_instance_init(&arena, l, n, true, 0, &again) == VES_OK);
+        cr_assert(ves_instance_init(&arena, l, n, true, 1, 0, &a) == VES_OK);
+        cr_assert(ves_instance_init(&arena, l, n, true, 1, 1, &b) == VES_OK);
+        cr_assert(ves_instance_init(&arena, l, n, true, 1, 0, &again) == VES_OK);
+        cr_assert(ves_instance_init(&arena, l, n, true, 2, 0, &other) == VES_OK);
         for (int i = 0; i < n; i++) {
             cr_expect(a.home[i] == again.home[i] && a.home[i] != b.home[i]);
+            cr_expect(a.home[i] != other.home[i], "another seed, another place");
             cr_expect(fabs(a.home[i]) < 0.8 * 5.12, "%g lies in the margin", a.home[i]);
             for (int j = 0; j < n; j++) {
                 double sum = 0;
@@ -240,11 +242,12 @@ Test(suite_instance, what_does_not_fit_is_refused)
 {
     ves_arena arena = {0};
     ves_instance it;
-    cr_expect(ves_instance_init(&arena, ves_landscape_find("g01"), 12, false, 0, &it) == VES_RANGE);
-    cr_expect(ves_instance_init(&arena, ves_landscape_find("lennard_jones"), 10, false, 0, &it) == VES_RANGE);
-    cr_expect(ves_instance_init(&arena, ves_landscape_find("schwefel"), 5, true, 0, &it) == VES_RANGE);
-    cr_expect(ves_instance_init(&arena, ves_landscape_find("sphere"), 201, false, 0, &it) == VES_RANGE);
-    cr_expect(ves_instance_init(&arena, ves_landscape_find("sphere"), 5, false, -1, &it) == VES_RANGE);
+    cr_expect(ves_instance_init(&arena, ves_landscape_find("g01"), 12, false, 1, 0, &it) == VES_RANGE);
+    cr_expect(ves_instance_init(&arena, ves_landscape_find("lennard_jones"), 10, false, 1, 0, &it) ==
+              VES_RANGE);
+    cr_expect(ves_instance_init(&arena, ves_landscape_find("schwefel"), 5, true, 1, 0, &it) == VES_RANGE);
+    cr_expect(ves_instance_init(&arena, ves_landscape_find("sphere"), 201, false, 1, 0, &it) == VES_RANGE);
+    cr_expect(ves_instance_init(&arena, ves_landscape_find("sphere"), 5, false, 1, -1, &it) == VES_RANGE);
     cr_expect(ves_landscape_find("spher") == NULL);
     ves_arena_destroy(&arena);
 }

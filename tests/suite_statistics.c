@@ -83,17 +83,22 @@ Test(suite_statistics, effect)
 Test(suite_statistics, wilcoxon)
 {
     const double zero[8] = {0}, up[] = {1, 2, 3, 4, 5, 6, 7, 8}, mixed[] = {1, 2, -3, 4, 5, 6, 7, 8};
-    NEAR(ves_statistics_paired(up, zero, 8), 2.0 / 256, 1e-15, "all greater");
-    NEAR(ves_statistics_paired(zero, up, 8), 2.0 / 256, 1e-15, "all less");
-    NEAR(ves_statistics_paired(mixed, zero, 8), 10.0 / 256, 1e-15, "sum 3");
-    NEAR(ves_statistics_paired(zero, zero, 8), 1, 0, "no difference");
+    NEAR(ves_statistics_paired(up, zero, 8).p, 2.0 / 256, 1e-15, "all greater");
+    NEAR(ves_statistics_paired(zero, up, 8).p, 2.0 / 256, 1e-15, "all less");
+    NEAR(ves_statistics_paired(mixed, zero, 8).p, 10.0 / 256, 1e-15, "sum 3");
+    NEAR(ves_statistics_paired(zero, zero, 8).p, 1, 0, "no difference");
     const double lost[] = {INFINITY, INFINITY, 5, 5}, won[] = {INFINITY, 3, 3, 3};
-    NEAR(ves_statistics_paired(lost, won, 4), 2.0 / 8, 1e-15, "three of one sign, two tied");
+    NEAR(ves_statistics_paired(lost, won, 4).p, 2.0 / 8, 1e-15, "three of one sign, two tied");
     /* [Hollander and Wolfe, Nonparametric Statistical Methods, example 3.1]: depression factors of nine
      * patients; the sum is 5, two-sided p = 0.0390625 */
     const double x[] = {1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30};
     const double y[] = {0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29};
-    NEAR(ves_statistics_paired(x, y, 9), 0.0390625, 1e-12, "Hollander and Wolfe");
+    NEAR(ves_statistics_paired(x, y, 9).p, 0.0390625, 1e-12, "Hollander and Wolfe");
+    NEAR(ves_statistics_paired(up, zero, 8).lead, -1, 0, "x is greater throughout");
+    NEAR(ves_statistics_paired(mixed, zero, 8).lead, (3.0 - 33) / 36, 1e-15, "rank 3 against all others");
+    NEAR(ves_statistics_paired(zero, zero, 8).lead, 0, 0, "nobody leads");
+    NEAR(ves_statistics_least(5), 0.0625, 0, "five runs");
+    NEAR(ves_statistics_least(0), 1, 0, "no run");
 }
 
 /* By hand: 0.01 * 4, 0.02 * 3, 0.03 * 2 -> 0.06, 0.5. */

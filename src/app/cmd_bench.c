@@ -116,6 +116,8 @@ int app_bench(app *a)
         json_print(bench);
     else if (bench)
         app_screen_bench(bench, stdout);
+    if (bench && bench->folder && bench->done < bench->runs)
+        fprintf(stderr, "to go on: %s bench --resume %s\n", app_called(), bench->folder);
     ves_bench_destroy(bench);
     return status == VES_INTERRUPTED ? APP_INTERRUPTED : app_code(status);
 }

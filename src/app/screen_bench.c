@@ -44,14 +44,23 @@ static const ves_score *score_of(const ves_bench *b, int entrant, int bout)
     return &b->tally.score[entrant * b->suite->bouts + bout];
 }
 
+/* A maximum with its own sign, not that of what is minimised. */
+static double told(const ves_bench *b, int bout, double value)
+{
+    return b->bout[bout].maximize ? -value : value;
+}
+
 static void heading(const ves_bench *b, FILE *out)
 {
     const ves_suite *s = b->suite;
-    char budget[32], most[32], runs[32];
+    char budget[32], most[32], runs[32], p[64], m[64], r[64];
     fprintf(out, "%s\n\n", s->title);
-    fprintf(out, "  %d problems, %d methods, %d runs of each (%s of %d done), vesica %s, %d %s\n", s->bouts,
-            s->entrants, s->seeds, app_screen_thousands(b->done, runs), b->runs, VESICA_VERSION, b->jobs,
-            b->jobs == 1 ? "job" : "jobs");
+    fprintf(out, "  %s, %s, %s of each (%s of %d done), vesica %s, %d %s\n",
+            app_screen_plural(s->bouts, "problem", "problems", p),
+            app_screen_plural(s->entrants, "method", "methods", m),
+            app_screen_plural(s->seeds, "run", "runs", r), app_screen_thousands(b->done, runs), b->runs,
+            VESICA_VERSION, b->jobs, b->jobs == 1 ? "job" : "jobs");
+    if (b->done < b->runs) fprintf(out, "  interrupted: what follows is of the runs that are done\n");
     fprintf(out, "  budget: %s for each variable, at most %s; a value costs %g, with gradients %g\n",
             number(s->per_dimension, budget), number(s->most, most), s->cost, s->cost_gradient);
     fprintf(out,
@@ -78,17 +87,25 @@ static void references(const ves_bench *b, FILE *out)
         char held[CELL] = "";
         if (f->m) snprintf(held, sizeof held, f->equalities ? "%d, %d ==" : "%d", f->m, f->equalities);
         app_table_cell(&t, "%s%s%s", held, *held && *f->eliminated ? ", " : "", f->eliminated);
-        app_table_number(&t, r->value);
+        app_table_number(&t, told(b, p, r->value));
         if (r->known)
             app_table_cell(&t, "known");
         else if (isnan(r->value))
             app_table_cell(&t, "no feasible value was found");
         else
-            app_table_cell(&t, "best of all runs: %s, run %d", s->entrant[r->entrant].name, r->seed);
+            app_table_cell(&t, "best of all runs%s: %s, run %d", r->polished ? ", polished" : "",
+                           s->entrant[r->entrant].name, r->seed);
         app_table_cell(&t, "%s%s%s", seconds(f->seconds, a), f->gradients ? ", " : "",
                        f->gradients ? seconds(f->seconds_gradient, c) : "");
     }
     app_table_print(&t, out);
+    for (int p = 0; p < s->bouts; p++) {
+        const ves_reference *r = &b->tally.reference[p];
+        if (!isnan(r->below))
+            fprintf(out,
+                    "  %s: %.9g, which is feasible, is better than the optimum that the suite gives, %.9g\n",
+                    s->bout[p].name, told(b, p, r->below), told(b, p, r->value));
+    }
     fputc('\n', out);
 }
 
@@ -111,6 +128,8 @@ static void matrix(const ves_bench *b, FILE *out)
                 const ves_score *c = score_of(b, e, p);
                 if (c->runs && c->failed == c->runs)
                     app_table_cell(&t, "failed");
+                else if (!c->runs)
+                    app_table_cell(&t, "no run yet");
                 else
                     app_table_cell(&t, "%d/%d %s", c->hits[last], c->runs, number(c->ert[last].value, text));
             }
@@ -137,10 +156,10 @@ static void totals(const ves_bench *b, FILE *out)
         const ves_total *c = &b->tally.total[e];
         app_table_cell(&t, "%s", s->entrant[e].name);
         for (int k = 0; k < VES_TARGETS; k++) {
-            app_table_cell(&t, "%.1f %%", 100 * c->share[k].value);
-            app_table_cell(&t, "[%.0f, %.0f]", 100 * c->share[k].low, 100 * c->share[k].high);
+            app_table_cell(&t, c->runs ? "%.1f %%" : "-", 100 * c->share[k].value);
+            app_table_cell(&t, c->runs ? "[%.0f, %.0f]" : "", 100 * c->share[k].low, 100 * c->share[k].high);
         }
-        app_table_cell(&t, "%.0f %%", c->runs ? 100.0 * c->feasible / c->runs : NAN);
+        app_table_cell(&t, c->runs ? "%.0f %%" : "-", c->runs ? 100.0 * c->feasible / c->runs : NAN);
         app_table_cell(&t, "%d", c->failed);
         app_table_cell(&t, "%s", seconds(c->own, text));
     }
@@ -158,12 +177,12 @@ static void score_row(app_table *t, const ves_bench *b, int entrant, int bout)
         snprintf(hits + strlen(hits), sizeof hits - strlen(hits), "%s%d", k ? "/" : "", c->hits[k]);
     app_table_cell(t, "%s", b->suite->entrant[entrant].name);
     app_table_cell(t, "%s of %d", hits, c->runs);
-    app_table_cell(t, "[%.0f, %.0f] %%", 100 * c->share[last].low, 100 * c->share[last].high);
-    app_table_cell(t, "%s", number(c->ert[last].value, text));
+    app_table_cell(t, c->runs ? "[%.0f, %.0f] %%" : "", 100 * c->share[last].low, 100 * c->share[last].high);
+    app_table_cell(t, "%s", c->runs ? number(c->ert[last].value, text) : "");
     interval_cell(t, c->ert[last], number);
     app_table_cell(t, "%s", seconds(c->seconds.value, text));
-    app_table_cell(t, isfinite(c->quartile[1]) ? "%.7g" : "-", c->quartile[1]);
-    app_table_cell(t, isfinite(c->best) ? "%.7g" : "-", c->best);
+    app_table_cell(t, isfinite(c->quartile[1]) ? "%.9g" : "-", told(b, bout, c->quartile[1]));
+    app_table_cell(t, isfinite(c->best) ? "%.9g" : "-", told(b, bout, c->best));
     app_table_cell(t, "%d", c->feasible);
     app_table_cell(t, "%s", b->bout[bout].m ? number(c->worst, text) : "");
     app_table_cell(t, "%s", seconds(c->own, other));
@@ -195,14 +214,31 @@ static void details(const ves_bench *b, FILE *out)
 
 static void pair_cell(app_table *t, const ves_pair *pair)
 {
-    if (isnan(pair->effect))
+    static const char *const word[] = {"", "too few runs", "no difference shown", ", no direction", "", ""};
+    ves_finding finding = ves_tally_finding(pair);
+    char p[32] = "", by[32] = "";
+    if (finding >= VES_FINDING_MIXED)
+        snprintf(p, sizeof p, pair->p < 1e-4 ? "p < 1e-4" : "p = %.2g", pair->p);
+    if (*p && !isnan(pair->by_problem)) snprintf(by, sizeof by, " / %.2g", pair->by_problem);
+    if (finding == VES_FINDING_NONE)
         app_table_cell(t, "%s", "");
-    else if (!(pair->p < 0.05))
-        app_table_cell(t, "%.2f no difference shown", pair->effect);
-    else if (pair->p < 1e-4)
-        app_table_cell(t, "%.2f p < 1e-4", pair->effect);
     else
-        app_table_cell(t, "%.2f p = %.2g", pair->effect, pair->p);
+        app_table_cell(t, "%.2f %s%s%s", pair->effect, p, by, word[finding]);
+}
+
+/* The most that any pair could show, where that is nothing. */
+static void too_few(const ves_bench *b, FILE *out)
+{
+    double least = NAN;
+    for (int k = 0; k < b->suite->entrants * b->suite->entrants; k++)
+        if (ves_tally_finding(&b->tally.pair[k]) == VES_FINDING_FEW)
+            least = fmax(least, b->tally.pair[k].least);
+    if (!isnan(least))
+        fprintf(
+            out,
+            "  too few runs: whatever comes of them, p cannot fall below %.2g; more seeds or problems, or "
+            "fewer methods\n\n",
+            least);
 }
 
 static void pairs(const ves_bench *b, FILE *out)
@@ -212,7 +248,11 @@ static void pairs(const ves_bench *b, FILE *out)
     fprintf(
         out,
         "  chance that a run of the method on the left does better (A12), and p of Wilcoxon's signed ranks,\n"
-        "  paired by problem and run, corrected for all pairs (Holm)\n\n");
+        "  paired by problem and run, corrected for all pairs (Holm): whether they differ on these "
+        "problems\n");
+    if (s->bouts >= VES_TALLY_PROBLEMS)
+        fprintf(out, "  / p of the means of each problem: whether they would on others of the kind\n");
+    fputc('\n', out);
     for (int first = 0; first < s->entrants; first += COLUMNS - 2) {
         int end = first + COLUMNS - 2 < s->entrants ? first + COLUMNS - 2 : s->entrants;
         char align[COLUMNS + 2] = "l";
@@ -231,6 +271,7 @@ static void pairs(const ves_bench *b, FILE *out)
         app_table_print(&t, out);
         fputc('\n', out);
     }
+    too_few(b, out);
 }
 
 static void optima(const ves_bench *b, FILE *out)
@@ -242,8 +283,8 @@ static void optima(const ves_bench *b, FILE *out)
         const char *gap = "";
         ves_suite_place place = ves_suite_run(s, o->run);
         if (first) fprintf(out, "  optima of %s\n", s->bout[o->bout].name);
-        fprintf(out, "    %.9g   first by %s, run %d; ", o->value, s->entrant[place.entrant].name,
-                place.seed);
+        fprintf(out, "    %.9g   first by %s, run %d; ", told(b, o->bout, o->value),
+                s->entrant[place.entrant].name, place.seed);
         for (int e = 0; e < s->entrants; e++) {
             if (!o->hits[e]) continue;
             fprintf(out, "%s%s ", gap, s->entrant[e].name);
@@ -255,29 +296,46 @@ static void optima(const ves_bench *b, FILE *out)
     if (b->optima) fputc('\n', out);
 }
 
-/* The most hits of the last target; of equals the better one of the pair. */
+/* The largest share of runs that met the last target; of equals the better one of the pair. */
 static int best_of(const ves_bench *b)
 {
     int best = 0, last = VES_TARGETS - 1;
     for (int e = 1; e < b->suite->entrants; e++) {
         const ves_pair *pair = &b->tally.pair[e * b->suite->entrants + best];
-        int more = b->tally.total[e].hits[last] - b->tally.total[best].hits[last];
+        double more = b->tally.total[e].share[last].value - b->tally.total[best].share[last].value;
         if (more > 0 || (more == 0 && pair->effect > 0.5)) best = e;
     }
     return best;
 }
 
-/* Those that the best is not shown to differ from; or those that it is, and that hit as often. */
-static void others(const ves_bench *b, int best, bool same, const char *before, FILE *out)
+/* Those of which the pair with the best says this; `often`: and that met the last target as often. */
+static void others(const ves_bench *b, int best, ves_finding finding, bool often, const char *before,
+                   FILE *out)
 {
     int last = VES_TARGETS - 1;
+    const ves_total *total = b->tally.total;
     for (int e = 0; e < b->suite->entrants; e++) {
         const ves_pair *pair = &b->tally.pair[best * b->suite->entrants + e];
-        bool shown = pair->p < 0.05, often = b->tally.total[e].hits[last] == b->tally.total[best].hits[last];
-        if (e == best || isnan(pair->p) || (same ? shown : !shown || !often)) continue;
+        bool same = total[e].share[last].value == total[best].share[last].value;
+        if (e == best || ves_tally_finding(pair) != finding || (often && !same)) continue;
         fprintf(out, "%s%s", before, b->suite->entrant[e].name);
         before = ", ";
     }
+}
+
+/* Who leads among methods of which one has not begun cannot be said. */
+static bool all_begun(const ves_bench *b, FILE *out)
+{
+    const char *before = "No verdict: there is no run yet of ";
+    bool all = true;
+    for (int e = 0; e < b->suite->entrants; e++) {
+        if (b->tally.total[e].runs) continue;
+        fprintf(out, "%s%s", before, b->suite->entrant[e].name);
+        before = ", ";
+        all = false;
+    }
+    if (!all) fprintf(out, ".\n");
+    return all;
 }
 
 static void verdict(const ves_bench *b, FILE *out)
@@ -286,6 +344,8 @@ static void verdict(const ves_bench *b, FILE *out)
     int best = best_of(b), last = VES_TARGETS - 1;
     char budget[32], most[32];
     const ves_total *t = &b->tally.total[best];
+    if (!all_begun(b, out)) return;
+    if (b->done < b->runs) fprintf(out, "So far, with %d of %d runs: ", b->done, b->runs);
     fprintf(out, "Within %s cost units for each variable, at most %s, ", number(s->per_dimension, budget),
             number(s->most, most));
     if (!t->hits[last]) {
@@ -294,8 +354,11 @@ static void verdict(const ves_bench *b, FILE *out)
     }
     fprintf(out, "%s met the last target most often: %.1f %% of %d runs", s->entrant[best].name,
             100 * t->share[last].value, t->runs);
-    others(b, best, false, "; as often, at a higher cost: ", out);
-    others(b, best, true, "; no difference is shown from ", out);
+    others(b, best, VES_FINDING_FIRST, true, "; as often, at a higher cost: ", out);
+    others(b, best, VES_FINDING_SECOND, false, "; but run by run it is behind ", out);
+    others(b, best, VES_FINDING_MIXED, false, "; different, but neither better: ", out);
+    others(b, best, VES_FINDING_SAME, false, "; no difference is shown from ", out);
+    others(b, best, VES_FINDING_FEW, false, "; too few runs to tell it from ", out);
     fprintf(out, ".\n");
 }
 

@@ -29,7 +29,7 @@ static const ves_entry bout_keys[] = {
     {{"set", KIND(VES_NAMED), .about = "changes of that file, as --set makes them"}, "set: {nu: 0.6}", setting},
     {{"plugin", VES_TEXT, .about = "a shared object with objectives in C (vesica/objective.h), from the folder of the suite on"}, "plugin: ./mine.so", NULL},
     {{"objective", VES_TEXT, .about = "which of the objectives in the plugin; the first unless given"}, "objective: tower", NULL},
-    {{"optimum", VES_NUMBER, .unit = "1", .fallback = NAN, .about = "the least value, where it is known (of a maximum, the negative of the greatest); of functions it is"}, "optimum: 12.16456", NULL},
+    {{"optimum", VES_NUMBER, .unit = "1", .fallback = NAN, .about = "the least value, where it is known (of a problem file that maximizes, the greatest); of functions it is"}, "optimum: 12.16456", NULL},
     END};
 
 static const ves_entry bout[] = {
@@ -66,7 +66,7 @@ static const ves_entry cost_keys[] = {
 
 static const ves_entry feasible_keys[] = {
     {{"inequality", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 1e-6, .about = "of a constraint <= 0, divided by its size"}, "inequality: 1e-6", NULL},
-    {{"equality", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 1e-4, .about = "of a constraint == 0, divided by its size"}, "equality: 1e-4", NULL},
+    {{"equality", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 1e-6, .about = "of a constraint == 0, divided by its size"}, "equality: 1e-6", NULL},
     END};
 
 static const ves_entry root[] = {
@@ -79,7 +79,7 @@ static const ves_entry root[] = {
     {{"budget", KIND(VES_MAP), .about = "what a run may cost"}, "budget: {per_dimension: 1e4, most: 2e5}", budget_keys},
     {{"cost", KIND(VES_MAP), .about = "what an evaluation costs"}, "cost: {value: 1, gradient: 3}", cost_keys},
     {{"targets", VES_NUMBERS, .about = "three gaps, falling, [1e-1, 1e-3, 1e-6] unless given: a target is met by a feasible value up to the optimum + gap * max(1, |optimum|), of a problem file gap * |optimum|; a run ends at the last, where the optimum is known"}, "targets: [1e-1, 1e-3, 1e-6]", NULL},
-    {{"feasible", KIND(VES_MAP), .about = "what functions and plugins may violate; a problem file says it for itself"}, "feasible: {inequality: 1e-6, equality: 1e-4}", feasible_keys},
+    {{"feasible", KIND(VES_MAP), .about = "what functions and plugins may violate; a problem file says it for itself"}, "feasible: {inequality: 1e-6, equality: 1e-6}", feasible_keys},
     END};
 
 const ves_entry ves_schema_suite = {{"suite", KIND(VES_MAP), .about = "a suite file"}, NULL, root};

@@ -6,9 +6,12 @@
 
 #include "base/diag.h"
 #include "base/pool.h"
+#include "problem/problem.h"
 #include "problem/suite.h"
+#include "study/bench_about.h"
 #include "study/bench_charts.h"
 #include "study/bench_folder.h"
+#include "study/bench_polish.h"
 #include "study/folder.h"
 #include "study/optima.h"
 #include "study/ring.h"
@@ -25,7 +28,7 @@ typedef struct bench {
     ves_ring *ring; /* [bouts] */
     ves_pool *pool;
     ves_bench_files files;
-    int ready;         /* lines written: the first so many runs */
+    int *waiting;      /* [runs - done before] runs to be made, in the order in which they are begun */
     ves_status status; /* the first failure; under the pool's lock */
 } bench;
 
@@ -95,30 +98,47 @@ static ves_status fight(bench *b, int worker, int index, ves_arena *arena, ves_o
     ves_status status = ves_meter_begin(&meter) ? VES_OK : VES_MEMORY;
     double begin = ves_study_clock(), cpu = ves_study_thread_clock();
     if (status == VES_OK) status = ves_contest_run(&contest);
-    outcome->wall = ves_study_clock() - begin;
+    double wall = ves_study_clock() - begin, all = ves_study_thread_clock() - cpu;
     bool inside = contest.entrant->kind != VES_ENTRANT_PROGRAM;
-    outcome->cpu = inside ? ves_study_thread_clock() - cpu : NAN;
+    outcome->wall = fmax(wall - contest.aside, 0);
+    outcome->cpu = inside ? all * outcome->wall / fmax(wall, 1e-9) : NAN;
     if (status == VES_OK) status = outcome_take(&contest, outcome);
     ves_meter_end(&meter);
     return status;
 }
 
-/* Writes the lines of all runs that are next. Under the lock. */
+/* Under the lock. */
 static ves_status commit(bench *b, int index, ves_outcome *outcome)
 {
     outcome->done = true;
-    for (; b->ready < b->shown.runs && b->shown.outcome[b->ready].done; b->ready++)
-        if (b->files.folder)
-            VES_TRY(ves_bench_line_write(&b->files, b->shown.suite, b->ready, &b->shown.outcome[b->ready]));
+    if (b->files.folder) {
+        VES_TRY(ves_bench_journal_write(&b->files, index, outcome));
+        VES_TRY(ves_bench_line_write(&b->files, b->shown.suite, index, outcome));
+    }
     b->shown.done++;
     if (b->hooks->progress) b->hooks->progress(b->hooks->data, &b->shown, index);
     return VES_OK;
 }
 
+/* What ended the benchmark: one that has said so of several runs at once would say it twice. */
+static ves_status broken(bench *b, int index, ves_status status)
+{
+    const ves_suite *s = b->shown.suite;
+    ves_suite_place place = ves_suite_run(s, index);
+    const ves_bout *bout = &s->bout[place.bout];
+    if (status == VES_MEMORY || b->status != VES_OK || (status == VES_INTERRUPTED && stopped(b)))
+        return status;
+    ves_diag_add(b->diag, VES_ERROR, status, bout->mark,
+                 "\"%s\" could not be evaluated in run %d of %s, which ends the benchmark: %s (%s)",
+                 bout->name, place.seed, s->entrant[place.entrant].name, ves_status_word(status),
+                 ves_status_text(status));
+    return status == VES_INTERRUPTED ? VES_FAULT : status; /* a plugin may return anything */
+}
+
 static void task(void *data, int worker, int number)
 {
     bench *b = data;
-    int index = b->shown.before + number;
+    int index = b->waiting[number];
     ves_outcome *outcome = &b->shown.outcome[index];
     ves_arena arena = {0};
     ves_pool_lock(b->pool);
@@ -127,10 +147,8 @@ static void task(void *data, int worker, int number)
     if (status != VES_OK || stopped(b)) return;
     status = fight(b, worker, index, &arena, outcome);
     ves_arena_destroy(&arena);
-    if (status == VES_OK && b->files.folder)
-        status = ves_bench_journal_write(b->files.folder, index, outcome);
     ves_pool_lock(b->pool);
-    if (status == VES_IO) ves_diag_add(b->diag, VES_ERROR, VES_IO, (ves_mark){0}, "cannot write a journal");
+    if (status != VES_OK) status = broken(b, index, status);
     if (status == VES_OK) status = commit(b, index, outcome);
     if (status != VES_OK && b->status == VES_OK) b->status = status;
     ves_pool_unlock(b->pool);
@@ -145,11 +163,30 @@ static ves_status rings_open(bench *b)
     b->ring = ves_arena_take(&b->arena, (size_t)suite->bouts, sizeof *b->ring);
     if (!b->ring || !facts) return ves_diag_fail(b->diag, VES_MEMORY);
     for (int k = 0; k < suite->bouts; k++) {
-        b->ring[k] = (ves_ring){.bout = &suite->bout[k], .hooks = b->hooks, .jobs = b->shown.jobs};
+        b->ring[k] = (ves_ring){
+            .bout = &suite->bout[k], .hooks = b->hooks, .jobs = b->shown.jobs, .seed = suite->seed};
         VES_TRY(ves_ring_open(&b->ring[k], &b->arena, b->diag));
         facts[k] = b->ring[k].facts;
     }
     b->shown.bout = facts;
+    return VES_OK;
+}
+
+/* Of the best run on each problem whose optimum is not known. */
+static ves_status polish(bench *b, ves_tally_input *input)
+{
+    const ves_suite *s = b->shown.suite;
+    double *value = ves_arena_take(&b->arena, (size_t)s->bouts, sizeof *value);
+    if (!value) return ves_diag_fail(b->diag, VES_MEMORY);
+    for (int k = 0; k < s->bouts; k++) {
+        ves_reference best = ves_tally_reference(input, k);
+        value[k] = NAN;
+        if (best.known || isnan(best.value) || stopped(b)) continue;
+        int run = (best.entrant * s->bouts + k) * s->seeds + best.seed;
+        ves_status status = ves_bench_polish(&b->ring[k], s, &b->shown.outcome[run], stopped, b, &value[k]);
+        if (status != VES_OK) return ves_diag_fail(b->diag, status);
+    }
+    input->polished = value;
     return VES_OK;
 }
 
@@ -161,8 +198,8 @@ static ves_status count_up(bench *b)
     double *optimum = ves_arena_take(&b->arena, (size_t)bouts, sizeof *optimum);
     if (!n || !optimum) return ves_diag_fail(b->diag, VES_MEMORY);
     for (int k = 0; k < bouts; k++) n[k] = shown->bout[k].n, optimum[k] = shown->bout[k].optimum;
-    const ves_tally_input input = {
-        .suite = shown->suite, .outcome = shown->outcome, .optimum = optimum, .n = n};
+    ves_tally_input input = {.suite = shown->suite, .outcome = shown->outcome, .optimum = optimum, .n = n};
+    VES_TRY(polish(b, &input));
     if (!ves_tally_init(&input, &shown->tally)) return ves_diag_fail(b->diag, VES_MEMORY);
     for (int k = 0; k < bouts; k++) {
         if (shown->suite->bout[k].kind == VES_BOUT_LANDSCAPE) continue;
@@ -172,14 +209,30 @@ static ves_status count_up(bench *b)
     return b->files.folder ? ves_bench_charts_write(shown, &input, b->diag) : VES_OK;
 }
 
+/* All methods on all problems, then once more: what is broken off can be compared. */
+static ves_status line_up(bench *b)
+{
+    const ves_suite *s = b->shown.suite;
+    int count = 0;
+    b->waiting = ves_arena_take(&b->arena, (size_t)b->shown.runs, sizeof *b->waiting);
+    if (!b->waiting) return ves_diag_fail(b->diag, VES_MEMORY);
+    for (int k = 0; k < s->seeds; k++)
+        for (int p = 0; p < s->bouts; p++)
+            for (int e = 0; e < s->entrants; e++) {
+                int index = (e * s->bouts + p) * s->seeds + k;
+                if (!b->shown.outcome[index].done) b->waiting[count++] = index;
+            }
+    b->shown.done = b->shown.before = b->shown.runs - count;
+    return VES_OK;
+}
+
 static ves_status all_run(bench *b)
 {
-    ves_status status = rings_open(b);
+    ves_status status = line_up(b);
     if (status == VES_OK && b->hooks->begun) b->hooks->begun(b->hooks->data, &b->shown);
     b->pool = status == VES_OK ? ves_pool_create(b->shown.jobs) : NULL;
     if (status == VES_OK && !b->pool) status = ves_diag_fail(b->diag, VES_MEMORY);
     if (status == VES_OK) {
-        b->ready = b->shown.done = b->shown.before;
         ves_pool_run(b->pool, b->shown.runs - b->shown.before, task, b);
         status = b->status;
         if (status == VES_OK && stopped(b) && b->shown.done < b->shown.runs) status = VES_INTERRUPTED;
@@ -190,7 +243,6 @@ static ves_status all_run(bench *b)
         ves_status counted = count_up(b);
         if (counted != VES_OK) status = counted;
     }
-    for (int k = 0; b->ring && k < b->shown.suite->bouts; k++) ves_ring_close(&b->ring[k]);
     return status;
 }
 
@@ -223,7 +275,8 @@ static ves_status finish(bench *b, ves_status status, ves_bench **out)
     b->shown.wall = ves_study_clock() - begin;
     ves_status closed = VES_OK;
     if (b->files.folder && b->shown.tally.score) closed = ves_bench_report_write(&b->shown, b->diag);
-    ves_status ended = ves_bench_files_end(&b->files);
+    for (int k = 0; b->ring && k < b->shown.suite->bouts; k++) ves_ring_close(&b->ring[k]);
+    ves_status ended = ves_bench_files_end(&b->files, b->shown.suite, b->shown.outcome);
     if (closed == VES_OK) closed = ended;
     if (status == VES_OK) status = closed;
     if (b->shown.tally.score && b->shown.done > 0)
@@ -233,6 +286,15 @@ static ves_status finish(bench *b, ves_status status, ves_bench **out)
     return status;
 }
 
+static ves_status about_write(bench *b)
+{
+    const ves_suite *suite = b->shown.suite;
+    const char **text = ves_arena_take(&b->arena, (size_t)suite->bouts, sizeof *text);
+    if (!text) return ves_diag_fail(b->diag, VES_MEMORY);
+    for (int k = 0; k < suite->bouts; k++) text[k] = b->ring[k].problem ? b->ring[k].problem->text : NULL;
+    return ves_bench_about_write(b->files.folder, suite, text, b->diag);
+}
+
 ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, const ves_bench_hooks *hooks,
                          ves_bench **out, ves_diag *diag)
 {
@@ -240,13 +302,14 @@ ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, con
     *out = NULL;
     bench *b = bench_create(suite, options, hooks, diag);
     if (!b) return VES_MEMORY;
-    ves_status status = VES_OK;
-    if (!options->no_files)
+    ves_status status = rings_open(b);
+    if (status == VES_OK && !options->no_files)
         status = options->out ? ves_folder_make(options->out, &b->arena, &folder, diag)
                               : ves_folder_number("runs", suite->name, &b->arena, &folder, diag);
     b->shown.folder = folder;
     if (status == VES_OK && folder) status = ves_bench_files_take(&b->files, folder, &b->arena, diag);
-    if (status == VES_OK && folder) status = ves_bench_files_begin(&b->files, suite);
+    if (status == VES_OK && folder) status = ves_bench_files_begin(&b->files);
+    if (status == VES_OK && folder) status = about_write(b);
     return finish(b, status, out);
 }
 
@@ -266,6 +329,22 @@ static void order(ves_suite *suite, const ves_bench_about *about, ves_entrant *r
     suite->entrant = room;
 }
 
+/* Problem files are read from the copies in the folder, in which what was set stands. */
+static ves_status copies_use(ves_suite *suite, const char *folder)
+{
+    ves_bout *bout = ves_arena_take(&suite->arena, (size_t)suite->bouts, sizeof *bout);
+    if (!bout) return VES_MEMORY;
+    memcpy(bout, suite->bout, (size_t)suite->bouts * sizeof *bout);
+    for (int k = 0; k < suite->bouts; k++) {
+        if (bout[k].kind != VES_BOUT_FILE) continue;
+        bout[k].sets = 0;
+        bout[k].path = ves_bench_about_problem(folder, k, &suite->arena);
+        if (!bout[k].path) return VES_MEMORY;
+    }
+    suite->bout = bout;
+    return VES_OK;
+}
+
 static ves_status reopen(const char *folder, const ves_read_options *added, ves_suite **suite, ves_diag *diag)
 {
     ves_arena arena = {0};
@@ -282,9 +361,8 @@ static ves_status reopen(const char *folder, const ves_read_options *added, ves_
     if (status == VES_OK) {
         ves_entrant *room =
             ves_arena_take(&(*suite)->arena, (size_t)((*suite)->entrants + about.methods), sizeof *room);
-        if (room)
-            order(*suite, &about, room);
-        else
+        if (room) order(*suite, &about, room);
+        if (!room || copies_use(*suite, folder) != VES_OK)
             status = ves_diag_fail(diag, VES_MEMORY), ves_suite_destroy(*suite);
     }
     ves_arena_destroy(&arena);
@@ -303,9 +381,9 @@ ves_status ves_bench_resume(const char *folder, const ves_read_options *added,
     b->shown.folder = ves_arena_text(&b->arena, folder, strlen(folder));
     ves_status status = b->shown.folder ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
     if (status == VES_OK) status = ves_bench_files_take(&b->files, b->shown.folder, &b->arena, diag);
-    if (status == VES_OK)
-        status = ves_bench_files_again(&b->files, suite, b->shown.outcome, &b->shown.before);
-    if (status == VES_OK && added->overrides) status = ves_bench_suite_write(folder, suite, diag);
+    if (status == VES_OK) status = rings_open(b);
+    if (status == VES_OK) status = ves_bench_files_again(&b->files, suite, b->shown.outcome);
+    if (status == VES_OK && added->overrides) status = about_write(b);
     return finish(b, status, out);
 }
 

@@ -1,7 +1,8 @@
 /* Bench: a suite run, in a folder that can be gone on with.
  *
- *     suite.yaml      the suite as run        bench.json   where it was, which vesica ran it
- *     runs.jsonl      one line a run, in the order of the suite, whatever the number of threads
+ *     suite.yaml, problems/   the suite and its problem files as run
+ *     bench.json      where it was, which vesica ran it, and checksums of what it rests on
+ *     runs.jsonl      one line a run, as they end; in the end in the order of the suite
  *     times.jsonl     what clocks say of each        report.json  what they come to
  *     ecdf.png, profile-*.png, convergence/PROBLEM.png
  *     journals/NNNNN.jsonl   the improvements of run NNNNN: [cost, value, violation] */
@@ -34,6 +35,7 @@ typedef struct ves_bench_bout {
     int n, m, equalities;
     const char *eliminated; /* "scale", "solve", "scale, solve": equations that every candidate meets; "" */
     bool gradients;
+    bool maximize;                    /* values here are those of the negative goal */
     double optimum;                   /* NAN: not known */
     double seconds, seconds_gradient; /* of one evaluation, measured; NAN: not */
 } ves_bench_bout;
@@ -47,8 +49,8 @@ typedef struct ves_bench_optimum {
 
 struct ves_bench {
     ves_suite *suite;
-    const char *folder;   /* NULL: none */
-    int jobs, runs, done; /* done: the first so many */
+    const char *folder; /* NULL: none */
+    int jobs, runs, done;
     int before;           /* of them done by earlier processes */
     ves_outcome *outcome; /* [runs] */
     const ves_bench_bout *bout;

@@ -82,7 +82,8 @@ static ves_status profile(charts *c, double tau, const char *name)
                        .line = c->line};
     for (int e = 0; e < s->entrants; e++) {
         size_t at = (size_t)e * c->room;
-        line_close(c, e, ves_profile_data(c->input, e, tau, c->x + at, c->y + at), &chart.x);
+        line_close(c, e, ves_profile_data(c->input, &c->bench->tally, e, tau, c->x + at, c->y + at),
+                   &chart.x);
     }
     return write(c, &chart, name);
 }

@@ -62,6 +62,7 @@ static void times_write(FILE *out, int index, const ves_outcome *o)
 ves_status ves_bench_line_write(ves_bench_files *files, const ves_suite *suite, int index,
                                 const ves_outcome *outcome)
 {
+    files->written = true;
     run_write(files->runs, suite, index, outcome);
     times_write(files->times, index, outcome);
     if (!fflush(files->times) && !fflush(files->runs)) return VES_OK; /* the line of a run holds its times */
@@ -73,12 +74,13 @@ static char *journal_path(const char *folder, int index, ves_arena *arena)
     return ves_arena_format(arena, "%s/journals/%05d.jsonl", folder, index);
 }
 
-ves_status ves_bench_journal_write(const char *folder, int index, const ves_outcome *outcome)
+ves_status ves_bench_journal_write(const ves_bench_files *files, int index, const ves_outcome *outcome)
 {
     ves_arena arena = {0};
     ves_file file;
-    char *path = journal_path(folder, index, &arena);
-    ves_status status = path ? ves_file_begin(&file, path, "jsonl", NULL) : VES_MEMORY;
+    char *path = journal_path(files->folder, index, &arena);
+    ves_status status =
+        path ? ves_file_begin(&file, path, "jsonl", files->diag) : ves_diag_fail(files->diag, VES_MEMORY);
     if (status == VES_OK) {
         ves_json json = {.out = file.out, .line = true};
         for (int k = 0; k < outcome->steps; k++) {
@@ -88,46 +90,7 @@ ves_status ves_bench_journal_write(const char *folder, int index, const ves_outc
             ves_json_number(&json, NULL, outcome->step[k].violation);
             ves_json_end(&json, ']');
         }
-        status = ves_file_end(&file, VES_OK, NULL);
-    }
-    ves_arena_destroy(&arena);
-    return status;
-}
-
-static ves_status text_write(const char *folder, const char *name, const char *text, ves_arena *arena,
-                             ves_diag *diag)
-{
-    ves_file file;
-    char *path = ves_folder_path(folder, name, arena);
-    if (!path || !text) return ves_diag_fail(diag, VES_MEMORY);
-    VES_TRY(ves_file_begin(&file, path, "text", diag));
-    fwrite(text, 1, strlen(text), file.out);
-    return ves_file_end(&file, VES_OK, diag);
-}
-
-static void about_write(FILE *out, const ves_suite *suite)
-{
-    ves_json json = {.out = out};
-    ves_json_object(&json, NULL);
-    ves_json_text(&json, "suite", suite->path);
-    ves_json_text(&json, "version", VESICA_VERSION);
-    ves_json_array(&json, "methods");
-    for (int k = 0; k < suite->entrants; k++) ves_json_text(&json, NULL, suite->entrant[k].name);
-    ves_json_end(&json, ']');
-    ves_json_end(&json, '}');
-}
-
-ves_status ves_bench_suite_write(const char *folder, const ves_suite *suite, ves_diag *diag)
-{
-    ves_arena arena = {0};
-    ves_file file;
-    ves_status status = text_write(folder, "suite.yaml", suite->text, &arena, diag);
-    char *path = ves_folder_path(folder, "bench.json", &arena);
-    if (status == VES_OK && !path) status = ves_diag_fail(diag, VES_MEMORY);
-    if (status == VES_OK) status = ves_file_begin(&file, path, "json", diag);
-    if (status == VES_OK) {
-        about_write(file.out, suite);
-        status = ves_file_end(&file, VES_OK, diag);
+        status = ves_file_end(&file, VES_OK, files->diag);
     }
     ves_arena_destroy(&arena);
     return status;
@@ -176,68 +139,63 @@ ves_status ves_bench_files_take(ves_bench_files *files, const char *folder, ves_
     return VES_OK;
 }
 
-ves_status ves_bench_files_begin(ves_bench_files *files, const ves_suite *suite)
+static ves_status journals_open(const ves_bench_files *files)
 {
     ves_arena arena = {0};
-    ves_diag *diag = files->diag;
     char *journals = ves_folder_path(files->folder, "journals", &arena);
-    ves_status status = journals ? ves_folder_open(journals, &arena, diag) : ves_diag_fail(diag, VES_MEMORY);
+    ves_status status =
+        journals ? ves_folder_open(journals, &arena, files->diag) : ves_diag_fail(files->diag, VES_MEMORY);
     ves_arena_destroy(&arena);
-    if (status == VES_OK) status = ves_bench_suite_write(files->folder, suite, diag);
-    return status == VES_OK ? open_lines(files, "wbx") : status;
+    return status;
 }
 
-ves_status ves_bench_files_end(ves_bench_files *files)
+ves_status ves_bench_files_begin(ves_bench_files *files)
+{
+    VES_TRY(journals_open(files));
+    return open_lines(files, "wbx");
+}
+
+/* All lines of one of the files, in the order of the runs. */
+static ves_status lines_write(const ves_bench_files *files, const char *name, const ves_suite *suite,
+                              const ves_outcome *outcome)
+{
+    ves_arena arena = {0};
+    ves_file file;
+    char *path = ves_folder_path(files->folder, name, &arena);
+    ves_status status =
+        path ? ves_file_begin(&file, path, "jsonl", files->diag) : ves_diag_fail(files->diag, VES_MEMORY);
+    if (status == VES_OK) {
+        for (int k = 0; k < ves_suite_runs(suite); k++)
+            if (outcome[k].done && *name == 'r')
+                run_write(file.out, suite, k, &outcome[k]);
+            else if (outcome[k].done)
+                times_write(file.out, k, &outcome[k]);
+        status = ves_file_end(&file, VES_OK, files->diag);
+    }
+    ves_arena_destroy(&arena);
+    return status;
+}
+
+static ves_status lines_sort(const ves_bench_files *files, const ves_suite *suite, const ves_outcome *outcome)
+{
+    VES_TRY(lines_write(files, "times.jsonl", suite, outcome));
+    return lines_write(files, "runs.jsonl", suite, outcome);
+}
+
+ves_status ves_bench_files_end(ves_bench_files *files, const ves_suite *suite, const ves_outcome *outcome)
 {
     bool bad = (files->runs && fclose(files->runs)) | (files->times && fclose(files->times));
+    ves_status status = bad ? ves_file_complain(files->folder, errno, files->diag) : VES_OK;
+    if (files->written) {
+        ves_status sorted = lines_sort(files, suite, outcome);
+        if (status == VES_OK) status = sorted;
+    }
     if (files->folder) ves_lock_drop(&files->lock);
     files->runs = files->times = NULL;
-    return bad ? ves_file_complain(files->folder, errno, files->diag) : VES_OK;
+    return status;
 }
 
 /* --- reading back --- */
-
-static ves_status load(const char *path, ves_arena *arena, char **text, size_t *length, ves_diag *diag)
-{
-    errno = 0;
-    ves_status status = ves_study_load(path, arena, text, length);
-    if (status == VES_MEMORY) return ves_diag_fail(diag, VES_MEMORY);
-    if (status == VES_OK) return VES_OK;
-    return ves_diag_add(diag, VES_ERROR, VES_IO, NOWHERE, "cannot read \"%s\": %s", path,
-                        errno ? strerror(errno) : "it is no file of a benchmark");
-}
-
-static ves_status about_read(const ves_node *root, const char *folder, ves_bench_about *about,
-                             ves_arena *arena, ves_diag *diag)
-{
-    const ves_node *path = root ? ves_node_find(root, "suite") : NULL;
-    const ves_node *methods = root ? ves_node_find(root, "methods") : NULL;
-    bool good = path && path->kind == VES_NODE_WORD && methods && methods->kind == VES_NODE_LIST;
-    if (!good)
-        return ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE, "\"%s/bench.json\" is damaged or not whole",
-                            folder);
-    about->path = path->text;
-    about->method = ves_arena_take(arena, (size_t)methods->count, sizeof *about->method);
-    if (!about->method) return ves_diag_fail(diag, VES_MEMORY);
-    for (int k = 0; k < methods->count; k++)
-        if (methods->item[k]->kind == VES_NODE_WORD) about->method[about->methods++] = methods->item[k]->text;
-    return VES_OK;
-}
-
-ves_status ves_bench_about_read(const char *folder, ves_arena *arena, ves_bench_about *about, ves_diag *diag)
-{
-    char *suite = ves_folder_path(folder, "suite.yaml", arena), *text = NULL;
-    char *json = ves_folder_path(folder, "bench.json", arena);
-    size_t length = 0;
-    *about = (ves_bench_about){.methods = 0};
-    if (!suite || !json) return ves_diag_fail(diag, VES_MEMORY);
-    if (access(json, F_OK))
-        return ves_diag_add(diag, VES_ERROR, VES_USAGE, NOWHERE,
-                            "\"%s\" is not the folder of a benchmark: it has no bench.json", folder);
-    VES_TRY(load(json, arena, &text, &length, diag));
-    VES_TRY(about_read(ves_study_json(text, length, arena), folder, about, arena, diag));
-    return load(suite, arena, &about->text, &about->length, diag);
-}
 
 static double number_of(const ves_node *line, const char *key)
 {
@@ -264,15 +222,23 @@ static bool read_x(const ves_node *line, ves_outcome *o)
     return o->x;
 }
 
-/* False: not a whole line, or not of this run. */
-static bool run_read(const ves_node *line, const ves_suite *suite, int index, ves_outcome *o)
+/* The run that a line is about; -1: none of this suite. */
+static int run_of(const ves_node *line, const ves_suite *suite)
 {
-    ves_suite_place place = ves_suite_run(suite, index);
-    const ves_node *reason = ves_node_find(line, "reason");
-    bool fits = number_of(line, "run") == index && number_of(line, "seed") == place.seed &&
+    double run = line ? number_of(line, "run") : NAN;
+    if (!(run >= 0 && run < ves_suite_runs(suite)) || run != floor(run)) return -1;
+    ves_suite_place place = ves_suite_run(suite, (int)run);
+    bool fits = number_of(line, "seed") == place.seed &&
                 word_is(line, "method", suite->entrant[place.entrant].name) &&
                 word_is(line, "problem", suite->bout[place.bout].name);
-    if (!fits || !read_x(line, o)) return false;
+    return fits ? (int)run : -1;
+}
+
+/* False: not a whole line. */
+static bool run_read(const ves_node *line, ves_outcome *o)
+{
+    const ves_node *reason = ves_node_find(line, "reason");
+    if (!read_x(line, o)) return false;
     o->failed = word_is(line, "end", ENDS[0]);
     o->hit = word_is(line, "end", ENDS[1]);
     if (reason && reason->kind == VES_NODE_WORD && !reason->plain)
@@ -311,7 +277,7 @@ static bool journal_read(const char *folder, int index, ves_outcome *o)
     ves_arena arena = {0};
     size_t length = 0;
     char *text = NULL, *path = journal_path(folder, index, &arena);
-    bool good = path && load(path, &arena, &text, &length, NULL) == VES_OK;
+    bool good = path && ves_study_load(path, &arena, &text, &length) == VES_OK;
     int lines = 0;
     for (size_t k = 0; good && k < length; k++) lines += text[k] == '\n';
     o->step = good ? ves_memory_take((size_t)(lines + 1) * sizeof *o->step) : NULL;
@@ -322,69 +288,87 @@ static bool journal_read(const char *folder, int index, ves_outcome *o)
     return good;
 }
 
-/* The end of the last line that holds; *count of them. */
-static size_t lines_read(const char *text, const ves_suite *suite, const char *folder, ves_outcome *outcome,
-                         int *count)
+static ves_status load(const char *path, ves_arena *arena, const char **text, ves_diag *diag)
 {
-    const char *at = text;
-    for (*count = 0; *count < ves_suite_runs(suite); ++*count) {
-        size_t length = strcspn(at, "\n");
-        ves_arena arena = {0};
-        ves_outcome *o = &outcome[*count];
-        const ves_node *line = at[length] ? ves_study_json(at, length, &arena) : NULL;
-        o->done = line && run_read(line, suite, *count, o) && journal_read(folder, *count, o);
-        ves_arena_destroy(&arena);
-        if (!o->done) {
-            ves_outcome_clear(o);
-            break;
-        }
-        at += length + 1;
-    }
-    return (size_t)(at - text);
+    size_t length = 0;
+    char *found = NULL;
+    if (!path) return ves_diag_fail(diag, VES_MEMORY);
+    errno = 0;
+    ves_status status = ves_study_load(path, arena, &found, &length);
+    *text = found ? found : "";
+    if (status == VES_MEMORY) return ves_diag_fail(diag, VES_MEMORY);
+    if (status == VES_OK) return VES_OK;
+    if (errno == ENOENT) return VES_OK; /* killed before it was made */
+    return ves_diag_add(diag, VES_ERROR, VES_IO, NOWHERE, "cannot read \"%s\": %s", path,
+                        errno ? strerror(errno) : "it is no file of a benchmark");
 }
 
-static size_t times_read(const char *text, ves_outcome *outcome, int count)
+/* One line of runs.jsonl. What it says of a run is lost only if it, or the journal, is damaged: then the run is
+ * made again. */
+static void line_read(const ves_bench_files *files, const ves_suite *suite, const char *text, size_t length,
+                      int number, ves_outcome *outcome)
 {
-    const char *at = text;
-    for (int k = 0; k < count; k++) {
-        size_t length = strcspn(at, "\n");
-        ves_arena arena = {0};
-        const ves_node *line = at[length] ? ves_study_json(at, length, &arena) : NULL;
-        if (line) {
-            outcome[k].wall = number_of(line, "wall_s");
-            outcome[k].inside = number_of(line, "inside_s");
-            outcome[k].cpu = number_of(line, "cpu_s");
-        }
-        ves_arena_destroy(&arena);
-        if (!line) break;
-        at += length + 1;
-    }
-    return (size_t)(at - text);
-}
-
-ves_status ves_bench_files_again(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome,
-                                 int *runs)
-{
-    const char *folder = files->folder;
-    ves_diag *diag = files->diag;
     ves_arena arena = {0};
-    char *text = NULL, *clock = NULL, *path = ves_folder_path(folder, "runs.jsonl", &arena);
-    char *clock_path = ves_folder_path(folder, "times.jsonl", &arena);
-    size_t length = 0, clock_length = 0;
-    ves_status status = path && clock_path ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
-    if (status == VES_OK) status = load(path, &arena, &text, &length, diag);
-    if (status == VES_OK) status = load(clock_path, &arena, &clock, &clock_length, diag);
+    const ves_node *line = ves_study_json(text, length, &arena);
+    int index = run_of(line, suite);
+    ves_outcome *o = index < 0 ? NULL : &outcome[index];
+    char *journal = o ? journal_path(files->folder, index, &arena) : NULL;
+    bool twice = o && o->done;
+    bool good = o && !twice && run_read(line, o);
+    if (o && !twice) o->done = good && journal_read(files->folder, index, o);
+    if (!o || (!good && !twice))
+        ves_diag_add(files->diag, VES_WARNING, VES_SYNTAX, NOWHERE,
+                     "\"%s/runs.jsonl\": line %d is damaged, or of no run of this suite: left out",
+                     files->folder, number);
+    else if (!o->done)
+        ves_diag_add(files->diag, VES_WARNING, VES_SYNTAX, NOWHERE,
+                     "\"%s\" is missing or damaged: run %d is made again", journal ? journal : "", index);
+    if (o && !o->done) ves_outcome_clear(o);
+    ves_arena_destroy(&arena);
+}
+
+/* Lines come in the order in which runs have ended. The last may have been cut off. */
+static void lines_read(const ves_bench_files *files, const ves_suite *suite, const char *text,
+                       ves_outcome *outcome)
+{
+    size_t length = strcspn(text, "\n");
+    for (int number = 1; text[length]; number++, length = strcspn(text, "\n")) {
+        line_read(files, suite, text, length, number, outcome);
+        text += length + 1;
+    }
+}
+
+/* What clocks said of the runs that hold. */
+static void times_read(const char *text, int runs, ves_outcome *outcome)
+{
+    size_t length = strcspn(text, "\n");
+    for (; text[length]; text += length + 1, length = strcspn(text, "\n")) {
+        ves_arena arena = {0};
+        const ves_node *line = ves_study_json(text, length, &arena);
+        double run = line ? number_of(line, "run") : NAN;
+        ves_outcome *o = run >= 0 && run < runs ? &outcome[(int)run] : NULL;
+        if (o && o->done) {
+            o->wall = number_of(line, "wall_s");
+            o->inside = number_of(line, "inside_s");
+            o->cpu = number_of(line, "cpu_s");
+        }
+        ves_arena_destroy(&arena);
+    }
+}
+
+ves_status ves_bench_files_again(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome)
+{
+    ves_arena arena = {0};
+    const char *text = NULL, *clock = NULL;
+    ves_status status = journals_open(files);
+    if (status == VES_OK)
+        status = load(ves_folder_path(files->folder, "runs.jsonl", &arena), &arena, &text, files->diag);
+    if (status == VES_OK)
+        status = load(ves_folder_path(files->folder, "times.jsonl", &arena), &arena, &clock, files->diag);
     if (status == VES_OK) {
-        size_t end = lines_read(text, suite, folder, outcome, runs);
-        size_t clock_end = times_read(clock, outcome, *runs);
-        const char *rest = text + end;
-        if (rest[strcspn(rest, "\n")] && *runs < ves_suite_runs(suite) &&
-            strchr(strchr(rest, '\n') + 1, '\n'))
-            status = ves_diag_add(diag, VES_ERROR, VES_SYNTAX, NOWHERE,
-                                  "\"%s\": line %d is not run %d of this suite: another suite, or damaged",
-                                  path, *runs + 1, *runs);
-        else if (truncate(path, (off_t)end) || truncate(clock_path, (off_t)clock_end))
-            status = ves_file_complain(path, errno, diag);
+        lines_read(files, suite, text, outcome);
+        times_read(clock, ves_suite_runs(suite), outcome);
+        status = lines_sort(files, suite, outcome); /* without what was cut off or damaged */
     }
     ves_arena_destroy(&arena);
     return status == VES_OK ? open_lines(files, "ab") : status;

@@ -34,6 +34,7 @@ static void head(const ves_bench *bench, ves_json *json)
     ves_json_text(json, "version", VESICA_VERSION);
     ves_json_integer(json, "runs", bench->runs);
     ves_json_integer(json, "done", bench->done);
+    ves_json_flag(json, "interrupted", bench->done < bench->runs);
     ves_json_integer(json, "seeds", s->seeds);
     ves_json_count(json, "seed", s->seed);
     ves_json_number(json, "budget_per_dimension", s->per_dimension);
@@ -41,6 +42,12 @@ static void head(const ves_bench *bench, ves_json *json)
     ves_json_number(json, "cost", s->cost);
     ves_json_number(json, "cost_gradient", s->cost_gradient);
     numbers(json, "targets", s->target, VES_TARGETS);
+}
+
+/* A maximum with its own sign, not that of what is minimised. */
+static double told(const ves_bench *bench, int bout, double value)
+{
+    return bench->bout[bout].maximize ? -value : value;
 }
 
 static void problem(const ves_bench *bench, int p, bool clocks, ves_json *json)
@@ -57,8 +64,11 @@ static void problem(const ves_bench *bench, int p, bool clocks, ves_json *json)
     ves_json_text(json, "eliminated", *facts->eliminated ? facts->eliminated : NULL);
     ves_json_flag(json, "gradients", facts->gradients);
     ves_json_number(json, "budget", ves_suite_budget(s, facts->n));
-    ves_json_number(json, "reference", r->value);
+    ves_json_flag(json, "maximize", facts->maximize);
+    ves_json_number(json, "reference", told(bench, p, r->value));
     ves_json_flag(json, "known", r->known);
+    ves_json_flag(json, "polished", r->polished);
+    ves_json_number(json, "better_than_known", told(bench, p, r->below));
     ves_json_text(json, "found_by", found ? s->entrant[r->entrant].name : NULL);
     ves_json_number(json, "found_in", found ? (double)r->seed : NAN);
     if (clocks) ves_json_number(json, "value_s", facts->seconds);
@@ -80,8 +90,10 @@ static void score(const ves_bench *bench, int e, int p, bool clocks, ves_json *j
     ves_json_array(json, "ert");
     for (int t = 0; t < VES_TARGETS; t++) interval(json, NULL, c->ert[t]);
     ves_json_end(json, ']');
-    numbers(json, "quartiles", c->quartile, 3);
-    ves_json_number(json, "best", c->best);
+    ves_json_array(json, "quartiles"); /* the best first */
+    for (int q = 0; q < 3; q++) ves_json_number(json, NULL, told(bench, p, c->quartile[q]));
+    ves_json_end(json, ']');
+    ves_json_number(json, "best", told(bench, p, c->best));
     ves_json_integer(json, "feasible", c->feasible);
     ves_json_number(json, "worst_violation", c->worst);
     if (clocks) interval(json, "ert_s", c->seconds);
@@ -102,6 +114,10 @@ static void total(const ves_bench *bench, int e, bool clocks, ves_json *json)
     ves_json_end(json, '}');
 }
 
+static const char *const VERDICT[] = {"none to compare",     "too few runs",
+                                      "no difference shown", "different, no direction",
+                                      "the first is better", "the second is better"};
+
 static void pairs(const ves_bench *bench, ves_json *json)
 {
     const ves_suite *s = bench->suite;
@@ -114,11 +130,9 @@ static void pairs(const ves_bench *bench, ves_json *json)
             ves_json_text(json, "second", s->entrant[j].name);
             ves_json_number(json, "a12", pair->effect);
             ves_json_number(json, "p", pair->p);
-            ves_json_text(json, "verdict",
-                          isnan(pair->p)       ? "none in common"
-                          : !(pair->p < 0.05)  ? "no difference shown"
-                          : pair->effect > 0.5 ? "the first is better"
-                                               : "the second is better");
+            ves_json_number(json, "p_by_problem", pair->by_problem);
+            ves_json_number(json, "p_least", pair->least);
+            ves_json_text(json, "verdict", VERDICT[ves_tally_finding(pair)]);
             ves_json_end(json, '}');
         }
     ves_json_end(json, ']');
@@ -133,7 +147,7 @@ static void optima(const ves_bench *bench, ves_json *json)
         const ves_outcome *run = &bench->outcome[o->run];
         ves_json_object(json, NULL);
         ves_json_text(json, "problem", s->bout[o->bout].name);
-        ves_json_number(json, "value", o->value);
+        ves_json_number(json, "value", told(bench, o->bout, o->value));
         ves_json_integer(json, "run", o->run);
         ves_json_object(json, "hits");
         for (int e = 0; e < s->entrants; e++) ves_json_integer(json, s->entrant[e].name, o->hits[e]);

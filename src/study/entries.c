@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/diag.h"
 #include "study/design.h"
@@ -48,12 +49,32 @@ static ves_status head_take(const ves_journal_head *head, ves_arena *arena, ves_
     return good ? VES_OK : VES_SYNTAX;
 }
 
+/* Where there is none, why. */
+static ves_status journal_is(const char *folder, const char *path, ves_arena *arena, ves_diag *diag)
+{
+    char *run = ves_folder_path(folder, "run.json", arena);
+    char *bench = ves_folder_path(folder, "bench.json", arena);
+    if (!run || !bench) return ves_diag_fail(diag, VES_MEMORY);
+    if (!access(path, F_OK)) return VES_OK;
+    if (!access(run, F_OK))
+        return ves_diag_add(diag, VES_ERROR, VES_USAGE, (ves_mark){0},
+                            "the run \"%s\" has no journal: it was made with --journal none, or ended before "
+                            "its first evaluation",
+                            folder);
+    if (access(bench, F_OK)) return VES_OK;
+    return ves_diag_add(diag, VES_ERROR, VES_USAGE, (ves_mark){0},
+                        "\"%s\" is the folder of a benchmark: the journals of its runs are "
+                        "%s/journals/NUMBER.jsonl",
+                        folder, folder);
+}
+
 ves_status ves_entries_open(ves_entries *e, const char *folder, ves_arena *arena, ves_diag *diag)
 {
     ves_journal_head head;
     *e = (ves_entries){.path = ves_folder_path(folder, "journal", arena)};
     char *part = ves_folder_path(folder, "journal.part", arena);
     if (!e->path || !part) return ves_diag_fail(diag, VES_MEMORY);
+    VES_TRY(journal_is(folder, e->path, arena, diag));
     VES_TRY(ves_journal_open(e->path, arena, &head, &e->file[0], diag));
     ves_status status = head_take(&head, arena, e);
     e->file[1] = (ves_frames){.fd = open(part, O_RDONLY | O_CLOEXEC)};

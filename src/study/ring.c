@@ -61,7 +61,8 @@ static ves_status same_file(void *data, const double *a, const double *b, bool *
 static ves_status pose_instance(ves_ring *ring, int seed, ves_arena *arena, ves_pose *pose)
 {
     const ves_bout *bout = ring->bout;
-    VES_TRY(ves_instance_init(arena, bout->landscape, bout->n, bout->turned, seed, &pose->instance));
+    VES_TRY(
+        ves_instance_init(arena, bout->landscape, bout->n, bout->turned, ring->seed, seed, &pose->instance));
     pose->problem.n = pose->instance.n;
     pose->problem.m = pose->instance.m;
     pose->problem.equality = pose->instance.equality;
@@ -85,7 +86,7 @@ static ves_status pose_file(ves_ring *ring, int worker, ves_pose *pose)
     pose->problem = pose->file;
     pose->problem.evaluate = evaluate_file;
     if (pose->file.same) pose->problem.same = same_file;
-    pose->optimum = ring->bout->optimum;
+    pose->optimum = ring->facts.maximize ? -ring->bout->optimum : ring->bout->optimum;
     return VES_OK;
 }
 
@@ -178,6 +179,7 @@ static ves_status facts_find(ves_ring *ring, ves_diag *diag)
         const ves_search_problem *p = &pose.problem;
         ring->facts = (ves_bench_bout){.n = p->n,
                                        .m = p->m,
+                                       .maximize = ring->facts.maximize,
                                        .eliminated = eliminated(ring->problem),
                                        .gradients = p->gradients,
                                        .optimum = pose.optimum};
@@ -192,14 +194,19 @@ static ves_status facts_find(ves_ring *ring, ves_diag *diag)
 static ves_status file_open(ves_ring *ring, ves_diag *diag)
 {
     const ves_bout *bout = ring->bout;
-    const ves_read_options options = {.overrides = bout->sets, .override = bout->set};
-    VES_TRY(ves_problem_read(bout->path, &options, &ring->problem, diag));
-    bool maximize;
-    if (ves_problem_variables(ring->problem) < 1 || !ves_problem_objective(ring->problem, &maximize))
+    const ves_read_options options = {.overrides = bout->sets, .override = bout->set, .inner = true};
+    int base = ves_diag_base(diag, -1); /* of the marks in this file */
+    ves_status status = ves_problem_read(bout->path, &options, &ring->problem, diag);
+    bool named = status == VES_OK && ves_problem_variables(ring->problem) >= 1 &&
+                 ves_problem_objective(ring->problem, &ring->facts.maximize);
+    if (named) status = plan_of(ring, 0, diag);
+    ves_diag_base(diag, base);
+    if (status != VES_OK)
+        return ves_diag_add(diag, VES_NOTE, status, bout->mark, "it is a problem of this suite");
+    if (!named)
         return ves_diag_add(diag, VES_ERROR, VES_USAGE, bout->mark,
                             "\"%s\" has no objective or no variables: there is nothing to compare",
                             bout->path);
-    VES_TRY(plan_of(ring, 0, diag));
     ves_plan_grid(ring->plan[0], ring->grid);
     return VES_OK;
 }

@@ -10,6 +10,7 @@ typedef struct ves_ring {
     const ves_bout *bout;
     const ves_bench_hooks *hooks;
     int jobs;
+    uint64_t seed; /* of the suite */
     ves_bench_bout facts;
     ves_problem *problem; /* FILE */
     int grid[2];
@@ -18,7 +19,7 @@ typedef struct ves_ring {
     void **state;                   /* [jobs] as plan */
 } ves_ring;
 
-/* Reads what the bout names and tells its facts. The first three fields are the caller's. */
+/* Reads what the bout names and tells its facts. The first four fields are the caller's. */
 ves_status ves_ring_open(ves_ring *ring, ves_arena *arena, ves_diag *diag);
 void ves_ring_close(ves_ring *ring);
 

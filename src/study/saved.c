@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 #include <zlib.h>
 
 #include "base/diag.h"
@@ -158,6 +159,10 @@ ves_status ves_saved_read(const char *folder, ves_arena *arena, ves_saved *saved
     char *path = ves_folder_path(folder, "run.json", arena);
     if (!path) return ves_diag_fail(diag, VES_MEMORY);
     ves_status status = ves_json_load(path, arena, &root);
+    const char *bench = ves_folder_path(folder, "bench.json", arena);
+    if (status == VES_IO && bench && !access(bench, F_OK))
+        return ves_diag_add(diag, VES_ERROR, VES_USAGE, NOWHERE,
+                            "\"%s\" is the folder of a benchmark: vesica bench --resume %s", folder, folder);
     if (status == VES_IO)
         return ves_diag_add(diag, VES_ERROR, VES_USAGE, NOWHERE,
                             "there is no run to go on with in \"%s\": \"%s\" cannot be read: %s", folder,

@@ -16,8 +16,14 @@ static bool measurable(const ves_contest *c, ves_verdict *room)
     return p->evaluate(p->data, 0, &ask, room) == VES_OK && room->status == VES_OK;
 }
 
+double ves_contest_clock(const ves_contest *contest)
+{
+    return contest->meter->clock ? contest->meter->clock() : 0;
+}
+
 ves_status ves_contest_start(ves_contest *contest)
 {
+    double begin = ves_contest_clock(contest);
     const ves_search_problem *p = contest->meter->inner;
     double *constraint = ves_memory_take((size_t)(p->m + 1) * sizeof *constraint);
     ves_verdict room = {.constraint = constraint};
@@ -28,6 +34,7 @@ ves_status ves_contest_start(ves_contest *contest)
         if (measurable(contest, &room)) break;
     }
     ves_memory_free(constraint);
+    contest->aside += ves_contest_clock(contest) - begin;
     return VES_OK;
 }
 
@@ -46,6 +53,7 @@ ves_status ves_contest_run(ves_contest *contest)
     static ves_status (*const run[])(ves_contest *) = {ves_contest_search, ves_contest_nlopt,
                                                        ves_contest_program};
     contest->starts = 0;
+    contest->aside = 0;
     contest->failed = false;
     contest->reason[0] = 0;
     contest->start = ves_memory_take((size_t)contest->meter->inner->n * sizeof *contest->start);

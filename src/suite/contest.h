@@ -16,6 +16,7 @@ typedef struct ves_contest {
     void *data;
 
     int starts;              /* how often it began */
+    double aside;            /* s for what is not the method's: finding starts, programs that begin and end */
     double *start;           /* [n] where it began last */
     bool failed;             /* the method crashed, hung, made no sense or cannot take the problem: */
     char reason[VES_REASON]; /* why; of one that did not fail, what was odd about it, or "" */
@@ -30,6 +31,9 @@ ves_status ves_contest_run(ves_contest *contest);
 /* Draws the next point to begin at, in contest->start: one that can be measured, if there is one among many.
  * The same for every method. */
 ves_status ves_contest_start(ves_contest *contest);
+
+/* s, of the meter's clock; 0: it has none. */
+double ves_contest_clock(const ves_contest *contest);
 
 /* Notes why the method failed (printf format). The first reason holds. */
 void ves_contest_fail(ves_contest *contest, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -25,7 +25,8 @@ typedef struct talk {
     bool ended;  /* why there is no more to say is known */
     double *u;
     ves_verdict answer;
-    long asked; /* of the process that runs */
+    long asked;   /* of the process that runs */
+    double begun; /* s, when it was started; its own time begins with its first question */
 } talk;
 
 /* --- saying --- */
@@ -180,6 +181,7 @@ static ves_status converse(talk *t)
     ves_request request;
     bool alive = say_problem(t);
     while (!c->meter->over && alive && hear(t, &request) && !request.done) {
+        if (!t->asked) c->aside += ves_contest_clock(c) - t->begun;
         const ves_ask ask = {
             .x = t->u, .cutoff = HUGE_VAL, .want = request.gradient ? VES_WANT_GRADIENT : VES_WANT_VALUE};
         t->answer.status = VES_OK;
@@ -204,6 +206,7 @@ static ves_status repeat(talk *t)
     for (int idle = 0; !c->meter->over && !c->failed;) {
         if (c->stopped && c->stopped(c->data)) break;
         VES_TRY(ves_contest_start(c));
+        t->begun = ves_contest_clock(c);
         int error = ves_line_open(&t->line, c->entrant->word);
         if (error) {
             ves_contest_fail(c, "cannot start \"%s\": %s", c->entrant->word[0], strerror(error));
@@ -212,7 +215,9 @@ static ves_status repeat(talk *t)
         t->asked = 0;
         ves_status status = converse(t);
         bool waits = status == VES_OK && !c->failed && !(c->stopped && c->stopped(c->data));
+        double end = ves_contest_clock(c);
         if (t->line.child) ves_line_close(&t->line, waits ? patience : 0);
+        c->aside += ves_contest_clock(c) - end;
         if (status != VES_OK) return status;
         idle = t->asked ? 0 : idle + 1;
         if (idle == IDLE) ves_contest_fail(c, "the program ends without asking");

@@ -56,8 +56,8 @@ static double *turn_of(ves_arena *arena, int n, ves_random random)
     return turn;
 }
 
-ves_status ves_instance_init(ves_arena *arena, const ves_landscape *landscape, int n, bool turned, int number,
-                             ves_instance *instance)
+ves_status ves_instance_init(ves_arena *arena, const ves_landscape *landscape, int n, bool turned,
+                             uint64_t seed, int number, ves_instance *instance)
 {
     if (!ves_landscape_takes(landscape, n) || (turned && !landscape->free) || number < 0) return VES_RANGE;
     int m = landscape->inequalities + landscape->equalities;
@@ -76,7 +76,8 @@ ves_status ves_instance_init(ves_arena *arena, const ves_landscape *landscape, i
     instance->optimum = landscape->optimum(n, place);
     instance->lower = lower, instance->width = width, instance->place = place, instance->equality = equality;
     if (!landscape->free) return VES_OK;
-    ves_random random = {.seed = ves_instance_hash(landscape->name, (uint64_t)n), .chain = (uint32_t)number};
+    uint64_t which = (uint64_t)n + ((seed - 1) << 8); /* n < 256 */
+    ves_random random = {.seed = ves_instance_hash(landscape->name, which), .chain = (uint32_t)number};
     instance->home = home_of(arena, instance, random);
     if (turned) instance->turn = turn_of(arena, n, random);
     return instance->home && (instance->turn || !turned) ? VES_OK : VES_MEMORY;

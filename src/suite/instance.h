@@ -1,5 +1,5 @@
 /* An instance: a landscape with its optimum put somewhere else and, if wanted, its axes turned, seen from the
- * unit box. Instance k of one landscape is the same for every search. */
+ * unit box. Instance k of one landscape and seed is the same for every search. */
 #ifndef VES_SUITE_INSTANCE_H
 #define VES_SUITE_INSTANCE_H
 
@@ -19,10 +19,10 @@ typedef struct ves_instance {
     const double *turn;          /* [n][n] orthogonal; NULL: not turned */
 } ves_instance;
 
-/* number: 0, 1, ... All memory is the arena's. VES_RANGE: n is not for this landscape, or it cannot be
- * turned. */
-ves_status ves_instance_init(ves_arena *arena, const ves_landscape *landscape, int n, bool turned, int number,
-                             ves_instance *instance);
+/* Instance `number` (0, 1, ...) of those that come from a seed. All memory is the arena's. VES_RANGE: n is not
+ * for this landscape, or it cannot be turned. */
+ves_status ves_instance_init(ves_arena *arena, const ves_landscape *landscape, int n, bool turned,
+                             uint64_t seed, int number, ves_instance *instance);
 
 /* u [n] in the unit box; derivatives are by u. room [2 n] is the caller's. */
 ves_status ves_instance_eval(const ves_instance *instance, const double *u, bool slopes, ves_verdict *out,

@@ -18,7 +18,8 @@ typedef struct ves_outcome {
     double *x; /* [n] the best, in the unit box */
     int steps;
     ves_step *step;      /* its improvements */
-    double wall, inside; /* s: of the run, and of it in the problem; NAN: not known */
+    double wall, inside; /* s: of the run without what is not the method's (ves_contest.aside), and of it in
+                            the problem; NAN: not known */
     double cpu;          /* s of its thread's processor; NAN: not known, or the method is another process */
 } ves_outcome;
 

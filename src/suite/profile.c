@@ -51,7 +51,8 @@ static double first_value(const ves_outcome *o)
     return NAN;
 }
 
-int ves_profile_data(const ves_tally_input *input, int entrant, double tau, double *x, double *y)
+int ves_profile_data(const ves_tally_input *input, const ves_tally *tally, int entrant, double tau, double *x,
+                     double *y)
 {
     const ves_suite *s = input->suite;
     int count = 0;
@@ -66,6 +67,7 @@ int ves_profile_data(const ves_tally_input *input, int entrant, double tau, doub
             }
             const ves_outcome *o = run_of(input, entrant, p, k);
             if (!o->done) continue;
+            best = fmax(best, tally->reference[p].value);
             double value = best + tau * (first - best);
             x[count++] = isnan(value) ? INFINITY : ves_outcome_reach(o, value) / (input->n[p] + 1);
         }

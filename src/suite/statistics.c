@@ -130,9 +130,15 @@ static double exact_paired(const int *rank, int n, int observed)
     return p;
 }
 
-double ves_statistics_paired(const double *x, const double *y, int n)
+double ves_statistics_least(int n)
 {
-    double *size = ves_memory_take((size_t)(n + 1) * sizeof *size), p = NAN;
+    return fmin(1, ldexp(1, 1 - n));
+}
+
+ves_paired ves_statistics_paired(const double *x, const double *y, int n)
+{
+    double *size = ves_memory_take((size_t)(n + 1) * sizeof *size);
+    ves_paired paired = {.p = NAN};
     int *rank = ves_memory_take((size_t)(n + 1) * sizeof *rank), count = 0, plus = 0;
     bool *sign = ves_memory_take((size_t)(n + 1) * sizeof *sign);
     if (size && rank && sign) {
@@ -143,17 +149,18 @@ double ves_statistics_paired(const double *x, const double *y, int n)
         }
         double ties = ranks(size, count, rank), N = count;
         for (int k = 0; k < count; k++) plus += sign[k] ? rank[k] : 0;
+        if (count) paired.lead = 1 - 2 * plus / (N * (N + 1));
         double variance = N * (N + 1) * (2 * N + 1) / 24 - ties / 48;
         double off = fmax(fabs(plus / 2.0 - N * (N + 1) / 4) - 0.5, 0);
         if (ties >= 0 && count <= EXACT)
-            p = count ? exact_paired(rank, count, plus) : 1;
+            paired.p = count ? exact_paired(rank, count, plus) : 1;
         else if (ties >= 0)
-            p = normal_tails(off / sqrt(variance));
+            paired.p = normal_tails(off / sqrt(variance));
     }
     ves_memory_free(size);
     ves_memory_free(rank);
     ves_memory_free(sign);
-    return p;
+    return paired;
 }
 
 /* The smallest p times count, the next times count - 1 ..., none less than one before it. What is done bears

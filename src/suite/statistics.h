@@ -27,9 +27,17 @@ double ves_statistics_quantile(const double *x, int n, double p);
 /* Chance that a run of x is less than one of y, ties half: the effect size A12 [Vargha and Delaney 2000] */
 double ves_statistics_effect(const double *x, int nx, const double *y, int ny);
 
-/* Two-sided p of [Wilcoxon 1945], paired: differences that are 0 say nothing; exact (all signs of the
- * midranks) up to 600 pairs. x[k] and y[k] may both be INFINITY: no difference. */
-double ves_statistics_paired(const double *x, const double *y, int n);
+/* [Wilcoxon 1945], paired: differences that are 0 say nothing; exact (all signs of the midranks) up to 600
+ * pairs. x[k] and y[k] may both be INFINITY: no difference. */
+typedef struct ves_paired {
+    double p; /* two-sided; NAN: out of memory */
+    double
+        lead; /* rank sum of the pairs in which x is less, minus the other, over the sum of all: -1 ... 1 */
+} ves_paired;
+ves_paired ves_statistics_paired(const double *x, const double *y, int n);
+
+/* The least two-sided p that n pairs could show. */
+double ves_statistics_least(int n);
 
 /* Step-down correction of count tests at once [Holm 1979], in place; NAN (no test) is left out. */
 void ves_statistics_holm(double *p, int count);

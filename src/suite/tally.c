@@ -21,17 +21,46 @@ double ves_tally_value(const ves_outcome *outcome)
     return outcome->any && outcome->violation <= 1 ? outcome->value : INFINITY;
 }
 
-static ves_reference reference_of(const ves_tally_input *input, int bout)
+/* A violation that is worth nothing, in units of what is allowed. */
+static const double nothing = 1e-3;
+
+/* A known optimum is contradicted by a value below it by more than constraints may be worth. */
+static double contradiction(const ves_suite *s, const ves_bout *bout, double optimum, const ves_outcome *o)
+{
+    double value = ves_tally_value(o), gap = s->target[o->violation <= nothing ? VES_TARGETS - 1 : 1];
+    double size = ves_suite_value(bout, optimum, gap) - optimum;
+    return o->done && value < optimum - size ? value : NAN;
+}
+
+/* The best of those runs whose violation is at most so much; unless they are better than what is there. */
+static void best_of(const ves_tally_input *input, int bout, double allowed, ves_reference *r)
 {
     const ves_suite *s = input->suite;
-    ves_reference r = {.value = input->optimum[bout], .known = !isnan(input->optimum[bout])};
-    for (int e = 0; e < s->entrants && !r.known; e++) {
+    for (int e = 0; e < s->entrants; e++) {
         bundle b = bundle_of(input, e, bout);
         for (int k = 0; k < s->seeds; k++) {
-            double value = b.run[k].done ? ves_tally_value(&b.run[k]) : INFINITY;
-            if (isfinite(value) && !(r.value <= value)) r.value = value, r.entrant = e, r.seed = k;
+            bool counts = b.run[k].done && b.run[k].violation <= allowed;
+            double value = counts ? ves_tally_value(&b.run[k]) : INFINITY;
+            if (isfinite(value) && !(r->value <= value)) r->value = value, r->entrant = e, r->seed = k;
         }
     }
+}
+
+ves_reference ves_tally_reference(const ves_tally_input *input, int bout)
+{
+    const ves_suite *s = input->suite;
+    const ves_bout *b = &s->bout[bout];
+    ves_reference r = {.value = input->optimum[bout], .known = !isnan(input->optimum[bout]), .below = NAN};
+    if (!r.known) best_of(input, bout, 1, &r);
+    double polished = input->polished ? input->polished[bout] : NAN;
+    if (!r.known && polished <= ves_suite_value(b, r.value, s->target[1])) {
+        r.value = polished; /* more than the best, where that used up what constraints are allowed */
+        r.polished = true;
+        best_of(input, bout, nothing, &r);
+    }
+    for (int e = 0; e < s->entrants && r.known; e++)
+        for (int k = 0; k < s->seeds; k++)
+            r.below = fmin(r.below, contradiction(s, b, r.value, &bundle_of(input, e, bout).run[k]));
     return r;
 }
 
@@ -63,9 +92,9 @@ static void score_target(const bundle *b, double reference, int t, space *room, 
         if (!o->done) continue;
         double cost = isnan(reference) ? INFINITY : ves_outcome_reach(o, value);
         room->hit[n] = isfinite(cost);
-        room->a[n] = room->hit[n] ? cost : o->spent;
-        room->b[n] = o->spent > 0 ? o->wall * room->a[n] / o->spent : 0;
-        timed = timed && !isnan(o->wall);
+        room->a[n] = room->hit[n] ? cost : o->budget; /* one that ended of itself gains nothing by that */
+        room->b[n] = o->spent > 0 ? o->wall * room->a[n] / o->spent : NAN;
+        timed = timed && isfinite(room->b[n]);
         score->hits[t] += room->hit[n++];
     }
     score->share[t] = ves_statistics_share(score->hits[t], n);
@@ -114,57 +143,106 @@ static void total_of(const ves_tally *tally, int entrant, ves_total *total)
     for (int t = 0; t < VES_TARGETS; t++) total->share[t] = ves_statistics_share(total->hits[t], total->runs);
 }
 
-/* x, y [bouts * seeds] take the dearness of runs that both have done. */
+/* Room for the comparison of two methods: of the runs that both have done, and of the means of problems. */
+typedef struct pairing {
+    double *x, *y;           /* [bouts * seeds] */
+    double *x_mean, *y_mean; /* [bouts] */
+    double *p, *q;           /* [entrants^2] of the pairs so far: by runs, by problems */
+} pairing;
+
+static double mean(const double *x, int n)
+{
+    double sum = 0;
+    for (int k = 0; k < n; k++) sum += x[k];
+    return sum / n;
+}
+
+static bool failed_everywhere(const ves_tally *tally, int entrant)
+{
+    return tally->total[entrant].failed == tally->total[entrant].runs;
+}
+
 static ves_pair pair_of(const ves_tally *tally, const ves_tally_input *input, int first, int second,
-                        double *x, double *y)
+                        pairing *room)
 {
     const ves_suite *s = input->suite;
-    double effect = 0;
+    double effect = 0, *x = room->x, *y = room->y;
     int n = 0, problems = 0;
-    ves_pair pair = {.effect = NAN, .p = NAN};
+    ves_pair pair = {.effect = NAN, .p = NAN, .by_problem = NAN, .least = NAN};
+    if (failed_everywhere(tally, first) || failed_everywhere(tally, second)) return pair;
     for (int p = 0; p < s->bouts; p++) {
         bundle a = bundle_of(input, first, p), b = bundle_of(input, second, p);
         int begin = n;
         for (int k = 0; k < s->seeds; k++) {
             if (!a.run[k].done || !b.run[k].done) continue;
             x[n] = ves_tally_dearness(s, &s->bout[p], &a.run[k], tally->reference[p].value);
-            y[n] = ves_tally_dearness(s, &s->bout[p], &b.run[k], tally->reference[p].value);
-            pair.pairs += x[n] != y[n];
-            n++;
+            y[n++] = ves_tally_dearness(s, &s->bout[p], &b.run[k], tally->reference[p].value);
         }
         if (n == begin) continue;
         effect += ves_statistics_effect(x + begin, n - begin, y + begin, n - begin);
-        problems++;
+        room->x_mean[problems] = mean(x + begin, n - begin);
+        room->y_mean[problems++] = mean(y + begin, n - begin);
     }
     if (!problems) return pair;
+    ves_paired paired = ves_statistics_paired(x, y, n);
     pair.effect = effect / problems;
-    pair.p = ves_statistics_paired(x, y, n);
+    pair.p = paired.p;
+    pair.lead = paired.lead;
+    pair.least = ves_statistics_least(n);
+    if (problems >= VES_TALLY_PROBLEMS)
+        pair.by_problem = ves_statistics_paired(room->x_mean, room->y_mean, problems).p;
     return pair;
+}
+
+static void mirror(const ves_pair *pair, ves_pair *other)
+{
+    *other = *pair;
+    other->effect = 1 - pair->effect;
+    other->lead = -pair->lead;
 }
 
 /* Each pair is tested once; the other half of the matrix mirrors it. */
 static bool pairs_fill(const ves_tally_input *input, ves_tally *tally)
 {
-    int e = tally->suite->entrants, count = 0;
-    size_t runs = (size_t)tally->suite->bouts * (size_t)tally->suite->seeds;
-    double *x = ves_arena_take(&tally->arena, 2 * runs, sizeof *x);
-    double *p = ves_arena_take(&tally->arena, (size_t)e * (size_t)e, sizeof *p);
-    if (!x || !p) return false;
+    int e = tally->suite->entrants, count = 0, tests = 0;
+    size_t bouts = (size_t)tally->suite->bouts, runs = bouts * (size_t)tally->suite->seeds,
+           square = (size_t)e * (size_t)e;
+    double *all = ves_arena_take(&tally->arena, 2 * runs + 2 * bouts + 2 * square, sizeof *all);
+    if (!all) return false;
+    pairing room = {.x = all, .y = all + runs, .x_mean = all + 2 * runs, .p = all + 2 * runs + 2 * bouts};
+    room.y_mean = room.x_mean + bouts;
+    room.q = room.p + square;
     for (int i = 0; i < e; i++)
-        for (int j = i + 1; j < e; j++) {
-            tally->pair[i * e + j] = pair_of(tally, input, i, j, x, x + runs);
-            p[count++] = tally->pair[i * e + j].p;
+        for (int j = i + 1; j < e; j++, count++) {
+            ves_pair *pair = &tally->pair[i * e + j];
+            *pair = pair_of(tally, input, i, j, &room);
+            room.p[count] = pair->p;
+            room.q[count] = pair->by_problem;
+            tests += !isnan(pair->p);
         }
-    ves_statistics_holm(p, count);
+    ves_statistics_holm(room.p, count);
+    ves_statistics_holm(room.q, count);
     count = 0;
     for (int i = 0; i < e; i++)
-        for (int j = i + 1; j < e; j++) {
+        for (int j = i + 1; j < e; j++, count++) {
             ves_pair *pair = &tally->pair[i * e + j];
-            pair->p = p[count++];
-            tally->pair[j * e + i] = *pair;
-            tally->pair[j * e + i].effect = 1 - pair->effect;
+            pair->p = room.p[count];
+            pair->by_problem = room.q[count];
+            pair->least = fmin(1, pair->least * tests);
+            if (isnan(pair->p)) pair->least = NAN;
+            mirror(pair, &tally->pair[j * e + i]);
         }
     return true;
+}
+
+ves_finding ves_tally_finding(const ves_pair *pair)
+{
+    if (isnan(pair->p)) return VES_FINDING_NONE;
+    if (pair->least >= VES_TALLY_LEVEL) return VES_FINDING_FEW;
+    if (!(pair->p < VES_TALLY_LEVEL)) return VES_FINDING_SAME;
+    if (pair->lead > 0 && pair->effect > 0.5) return VES_FINDING_FIRST;
+    if (pair->lead < 0 && pair->effect < 0.5) return VES_FINDING_SECOND;
+    return VES_FINDING_MIXED;
 }
 
 static bool take(ves_tally *tally, space *room)
@@ -187,7 +265,7 @@ bool ves_tally_init(const ves_tally_input *input, ves_tally *tally)
     space room;
     *tally = (ves_tally){.suite = s};
     if (!take(tally, &room)) return false;
-    for (int p = 0; p < s->bouts; p++) tally->reference[p] = reference_of(input, p);
+    for (int p = 0; p < s->bouts; p++) tally->reference[p] = ves_tally_reference(input, p);
     for (int e = 0; e < s->entrants; e++) {
         for (int p = 0; p < s->bouts; p++) {
             ves_score *score = &tally->score[e * s->bouts + p];

@@ -10,6 +10,8 @@ typedef struct ves_tally_input {
     const ves_suite *suite;
     const ves_outcome *outcome; /* [ves_suite_runs]; those that are not done are left out */
     const double *optimum;      /* [bouts]; NAN: not known */
+    const double *polished;     /* [bouts] what a polish of the best run came to, its constraints met exactly;
+                                   NAN: nothing; NULL: no polish */
     const int *n;               /* [bouts] variables */
 } ves_tally_input;
 
@@ -18,6 +20,8 @@ typedef struct ves_reference {
     double value;      /* NAN: no run was feasible */
     bool known;        /* else the best of all runs: */
     int entrant, seed; /* by whom */
+    bool polished;     /* ... and then a polish of that one, or a run that met its constraints as exactly */
+    double below;      /* known: a value clearly below it, so that it cannot be the least; NAN: none */
 } ves_reference;
 
 /* One method on one problem. */
@@ -41,12 +45,28 @@ typedef struct ves_total {
     double own;
 } ves_total;
 
-/* Two methods on all problems: paired by problem and run. */
+/* Two methods on all problems. By runs, paired by problem and seed: whether they differ on these problems. By
+ * problems, of the means of their runs: whether they would on others of the kind; runs of one problem tell nothing
+ * about the next. A method that failed in all its runs is compared with none: all is NAN. */
 typedef struct ves_pair {
-    double effect; /* chance that a run of the first is better: the mean over the problems; NAN: none */
-    double p;      /* that there is no difference; corrected for all pairs */
-    int pairs;     /* runs that differ */
+    double effect;     /* chance that a run of the first is better: the mean over the problems; NAN: none */
+    double lead;       /* of the signed ranks, ves_paired: which of them has more; > 0: the first */
+    double p;          /* of the runs, that there is no difference; corrected for all pairs */
+    double by_problem; /* of the problems; NAN: fewer than VES_TALLY_PROBLEMS */
+    double least;      /* the least p that so many runs could show, corrected */
 } ves_pair;
+
+enum { VES_TALLY_PROBLEMS = 6 }; /* fewer cannot show p < 0.05: 2^-5 = 0.06 */
+#define VES_TALLY_LEVEL 0.05
+
+typedef enum ves_finding {
+    VES_FINDING_NONE,  /* no runs in common, or a method that failed in all */
+    VES_FINDING_FEW,   /* too few runs to show anything */
+    VES_FINDING_SAME,  /* no difference shown */
+    VES_FINDING_MIXED, /* a difference, but effect and ranks disagree on who is better */
+    VES_FINDING_FIRST, /* the first is better */
+    VES_FINDING_SECOND
+} ves_finding;
 
 typedef struct ves_tally {
     ves_arena arena;
@@ -60,6 +80,12 @@ typedef struct ves_tally {
 /* False: out of memory. */
 bool ves_tally_init(const ves_tally_input *input, ves_tally *tally);
 void ves_tally_destroy(ves_tally *tally);
+
+/* What gaps of a problem are measured from. */
+ves_reference ves_tally_reference(const ves_tally_input *input, int bout);
+
+/* What a pair says at the level of 5 %. */
+ves_finding ves_tally_finding(const ves_pair *pair);
 
 /* How dear a run was, for comparisons: the mean over the targets of log10 of the cost until each was met; one
  * that was not counts ten budgets. */
