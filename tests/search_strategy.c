@@ -103,6 +103,39 @@ Test(search_strategy, budgets_are_kept_to_the_last_evaluation)
                 search(&(task){"rastrigin", true, 7, only[k], gradients, budget}, 1);
 }
 
+/* The price of a gradient is believed: dearer than all differences together, none is asked for. */
+Test(search_strategy, gradients_have_a_price)
+{
+    const ves_landscape *landscape = ves_landscape_find("rosenbrock");
+    const double prices[] = {0, 3, 1, 6, 6.1, 0.5, -1, NAN};
+    long gradients[8] = {0};
+    for (int k = 0; k < 8; k++) {
+        ves_arena arena = {0};
+        trial t = {0};
+        cr_assert(ves_instance_init(&arena, landscape, 5, false, 1, 0, &t.instance) == VES_OK);
+        const double lower[5] = {0}, upper[5] = {1, 1, 1, 1, 1}, start[5] = {0.5, 0.5, 0.5, 0.5, 0.5};
+        const ves_search_problem problem = {.n = 5,
+                                            .lower = lower,
+                                            .upper = upper,
+                                            .start = start,
+                                            .gradients = true,
+                                            .evaluate = evaluate,
+                                            .data = &t};
+        ves_search_options o = ves_search_options_default();
+        o.evaluations = 3000;
+        o.gradient = prices[k];
+        ves_search_result *r = NULL;
+        ves_status status = ves_search_run(&problem, &o, NULL, &r);
+        cr_expect(status == (k < 5 ? VES_OK : VES_RANGE), "price %g: status %d", prices[k], status);
+        if (status == VES_OK) gradients[k] = r->gradients;
+        ves_search_result_destroy(r);
+        ves_arena_destroy(&arena);
+    }
+    cr_expect(gradients[0] == gradients[1] && gradients[0] > 0, "3 is what they usually cost");
+    cr_expect(gradients[3] > 0 && gradients[4] == 0,
+              "6 evaluations make a difference for each of 5 variables");
+}
+
 Test(search_strategy, an_unknown_one_is_refused)
 {
     const double lower = 0, upper = 1, start = 0.5;

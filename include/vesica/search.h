@@ -137,6 +137,11 @@ typedef struct ves_search_options {
      * end, where the best and the optima are proved. A budget of 1 measures the start and proves nothing: the
      * result is unproved, and counts as infeasible. */
     long evaluations;
+
+    /* What an answer with gradients costs, in evaluations; 0: 3 (an adjoint costs about two more); else >= 1. A
+     * portfolio shares out by it. Where it is more than n + 1, and differences of values would be as cheap, the
+     * search does without gradients. */
+    double gradient;
 } ves_search_options;
 
 ves_search_options ves_search_options_default(void);

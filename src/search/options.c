@@ -82,6 +82,7 @@ ves_status ves_search_check(const ves_search_problem *problem, const ves_search_
     VES_TRY(check_box(problem));
     if (options->stages < 0 || options->stages > VES_STAGES || bad_budget(options->evaluations))
         return VES_RANGE;
+    if (bad(options->gradient) || (options->gradient > 0 && options->gradient < 1)) return VES_RANGE;
     for (int k = 0; k < options->stages; k++) {
         const ves_stage *stage = &options->stage[k];
         if (stage->kind == VES_STAGE_ANNEAL)

@@ -250,7 +250,7 @@ static ves_status turn(portfolio *p, member *m)
     account_close(p, &refining, p->refining);
     if (!gained && p->proofs > 1 && !ves_session_over(session)) VES_TRY(prove(p));
     long evaluations = session->evaluations - all.evaluations;
-    m->used += (double)evaluations + 2 * (double)(session->gradients - all.gradients);
+    m->used += (double)evaluations + (session->dear - 1) * (double)(session->gradients - all.gradients);
     if (!evaluations) m->done = true;
     m->share = gained ? fmin(4 * m->base, 2 * m->share) : fmax(m->base, 0.8 * m->share);
     ves_session_progress(session);

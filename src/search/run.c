@@ -52,7 +52,9 @@ ves_status ves_search_run(const ves_search_problem *problem, const ves_search_op
     if (!options) options = &defaults;
     VES_TRY(ves_search_check(problem, options));
     ves_session session;
-    ves_status status = ves_session_init(&session, problem, options, hooks);
+    ves_search_problem values = *problem;
+    values.gradients = problem->gradients && !(options->gradient > problem->n + 1);
+    ves_status status = ves_session_init(&session, &values, options, hooks);
     if (status == VES_OK) status = work(&session);
     if (status == VES_OK || status == VES_INTERRUPTED) {
         if (session.fault)

@@ -13,6 +13,7 @@ ves_status ves_session_init(ves_session *session, const ves_search_problem *prob
     *session = (ves_session){.problem = problem, .n = problem->n, .m = problem->m, .seed = options->seed};
     if (hooks) session->hooks = *hooks;
     session->tolerance = problem->tolerance > 0 ? problem->tolerance : VES_FEASIBLE;
+    session->dear = options->gradient > 0 ? options->gradient : 3;
     session->tight = 1e-4 * session->tolerance;
     session->usual = session->tolerance / VES_FEASIBLE;
     session->seen = (ves_verdict){.status = VES_NO_NUMBER, .value = HUGE_VAL, .violation = HUGE_VAL};

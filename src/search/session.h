@@ -68,6 +68,7 @@ struct ves_session {
     double tolerance; /* feasible */
     double tight;     /* violations below this are rounding */
     double usual;     /* size of a constraint of which nothing is known: 1 for the usual tolerance */
+    double dear;      /* what an answer with gradients costs, in evaluations */
     uint64_t seed;
     ves_arena arena; /* scratch of the search */
     ves_arena kept;  /* what the result points to */

@@ -33,6 +33,7 @@ ves_status ves_contest_search(ves_contest *contest)
         ves_search_options options = contest->entrant->search;
         options.seed = ves_instance_hash("search", contest->seed + (uint64_t)round) >> 12;
         options.evaluations = share(contest, round);
+        options.gradient = fmax(meter->cost_gradient / meter->cost, 1);
         if (options.evaluations < 1) break;
         long before = meter->evaluations;
         ves_search_result *result = NULL;
