@@ -1,6 +1,7 @@
 /* search, seed, test: the stages of the search and their settings. */
 #include <string.h>
 
+#include "base/text.h"
 #include "problem/reader.h"
 
 static const ves_entry *stage_table(void)
@@ -67,6 +68,16 @@ static void set_choice(ves_reader *reader, const ves_fields *f, const char *name
                      *near ? "" : " (vesica explain tells the words)");
 }
 
+/* A setting that a choice (of these) does not read would look as if it did something. */
+static void idle(ves_reader *reader, const ves_fields *f, const char *setting, const char *slot,
+                 const char *choices)
+{
+    const ves_node *node = field(f, setting)->node, *choice = field(f, slot)->node;
+    if (node && choice && choice->kind == VES_NODE_WORD && ves_words_find(choices, choice->text) >= 0)
+        ves_reader_error(reader, VES_RANGE, node, "\"%s: %s\" does not use \"%s\": leave it out", slot,
+                         choice->text, setting);
+}
+
 static void read_slots(ves_reader *reader, const ves_fields *f, ves_anneal *a)
 {
     set_choice(reader, f, "as", &a->as);
@@ -79,6 +90,9 @@ static void read_slots(ves_reader *reader, const ves_fields *f, ves_anneal *a)
     if (chains && a->chains > 1 && a->population && !strcmp(a->population, "chain"))
         ves_reader_error(reader, VES_RANGE, chains, "\"population: chain\" is 1, got %d: say chains",
                          a->chains);
+    idle(reader, f, "s", "schedule", "lam|fixed");
+    idle(reader, f, "c_end", "schedule", "lam|fixed");
+    idle(reader, f, "step", "proposal", "heavy");
 }
 
 static ves_anneal read_anneal(ves_reader *reader, const ves_fields *f)
