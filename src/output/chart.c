@@ -7,12 +7,22 @@
 #include "output/scene.h"
 #include "output/utf8.h"
 
-enum { WIDTH = 960, HEIGHT = 600, LEFT = 84, RIGHT = 210, TOP = 56, BOTTOM = 64, LABEL = 160, COLOURS = 8 };
+enum {
+    WIDTH = 960,
+    HEIGHT = 600,
+    LEFT = 84,
+    RIGHT = 210,
+    TOP = 56,
+    BOTTOM = 64,
+    LABEL = 400,
+    COLOURS = 8,
+    DASHES = 5
+};
 
 static const ves_rgb ink = {0.16, 0.19, 0.23}, quiet = {0.42, 0.46, 0.51}, faint = {0.87, 0.89, 0.91};
 
 /* Lines beyond the colours there are get dashes. */
-static const double dash[3][4] = {{0, 0, 0, 0}, {7, 4, 7, 4}, {2, 3, 2, 3}};
+static const double dash[DASHES][4] = {{0, 0, 0, 0}, {7, 4, 7, 4}, {2, 3, 2, 3}, {11, 3, 2, 3}, {5, 2, 1, 2}};
 
 static void colour(cairo_t *c, ves_rgb rgb, double opacity)
 {
@@ -35,6 +45,19 @@ static void font(cairo_t *c, double size, bool bold)
     cairo_select_font_face(c, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                            bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(c, size);
+}
+
+/* As large as fits, in the font that is chosen. */
+static void words_fit(cairo_t *c, double x, double y, double align, double size, double width,
+                      const char *text)
+{
+    char clean[LABEL];
+    cairo_text_extents_t extents;
+    ves_utf8_copy(clean, sizeof clean, text);
+    cairo_set_font_size(c, size);
+    cairo_text_extents(c, clean, &extents);
+    if (extents.x_advance > width) cairo_set_font_size(c, size * width / extents.x_advance);
+    words(c, x, y, align, text);
 }
 
 /* 0 ... 1 along the axis. */
@@ -112,16 +135,16 @@ static void frame(cairo_t *c, const ves_chart *chart)
     cairo_save(c);
     cairo_translate(c, 22, TOP + (HEIGHT - TOP - BOTTOM) / 2.0);
     cairo_rotate(c, -acos(-1) / 2);
-    words(c, 0, 0, 0.5, chart->y.label);
+    words_fit(c, 0, 0, 0.5, 13, HEIGHT - TOP - BOTTOM, chart->y.label);
     cairo_restore(c);
     font(c, 16, true);
-    words(c, LEFT, 34, 0, chart->title);
+    words_fit(c, LEFT, 34, 0, 16, WIDTH - LEFT - 20, chart->title);
 }
 
 static void dashes(cairo_t *c, int index)
 {
-    int kind = index / COLOURS % 3;
-    cairo_set_dash(c, dash[kind], kind ? 2 : 0, 0);
+    int kind = index / COLOURS % DASHES;
+    cairo_set_dash(c, dash[kind], kind ? 4 : 0, 0);
 }
 
 /* Where the chart can show a point: finite, and not beyond 0 of a logarithmic axis. */
@@ -147,7 +170,7 @@ static void mark_draw(cairo_t *c, ves_chart_mark mark, double x, double y)
 static void marks_draw(cairo_t *c, const ves_chart *chart, int index)
 {
     const ves_chart_line *l = &chart->line[index];
-    colour(c, l->mark == VES_MARK_CROSS ? ink : ves_colour_patch(index), l->mark == VES_MARK_SPECK ? 0.5 : 1);
+    colour(c, l->mark == VES_MARK_CROSS ? ink : ves_colour_line(index), l->mark == VES_MARK_SPECK ? 0.5 : 1);
     cairo_set_line_width(c, 1.5);
     for (int k = 0; k < l->count && l->mark != VES_MARK_NONE; k++)
         if (shown(chart, l->x[k], l->y[k])) mark_draw(c, l->mark, px(chart, l->x[k]), py(chart, l->y[k]));
@@ -171,7 +194,7 @@ static void line_draw(cairo_t *c, const ves_chart *chart, int index)
             cairo_move_to(c, x, y);
         pen = true;
     }
-    colour(c, ves_colour_patch(index), 1);
+    colour(c, ves_colour_line(index), 1);
     cairo_set_line_width(c, 2);
     dashes(c, index);
     cairo_stroke(c);
@@ -186,25 +209,26 @@ static void band_draw(cairo_t *c, const ves_chart *chart, int index)
         double high[2] = {fmin(l->high[k], chart->y.high), fmin(l->high[k + 1], chart->y.high)};
         bool both = shown(chart, l->x[k], l->low[k]) && shown(chart, l->x[k + 1], l->low[k + 1]);
         if (!both || !shown(chart, l->x[k], high[0]) || !shown(chart, l->x[k + 1], high[1])) continue;
+        int end = l->stairs ? k : k + 1;
         cairo_move_to(c, px(chart, l->x[k]), py(chart, l->low[k]));
-        cairo_line_to(c, px(chart, l->x[k + 1]), py(chart, l->low[k + 1]));
-        cairo_line_to(c, px(chart, l->x[k + 1]), py(chart, high[1]));
+        cairo_line_to(c, px(chart, l->x[k + 1]), py(chart, l->low[end]));
+        cairo_line_to(c, px(chart, l->x[k + 1]), py(chart, high[end - k]));
         cairo_line_to(c, px(chart, l->x[k]), py(chart, high[0]));
         cairo_close_path(c);
     }
-    colour(c, ves_colour_patch(index), 0.16);
+    colour(c, ves_colour_line(index), 0.16);
     cairo_fill(c);
 }
 
 static void legend(cairo_t *c, const ves_chart *chart)
 {
-    font(c, 13, false);
+    double step = fmin(20, (HEIGHT - TOP - 24.0) / chart->lines), size = fmin(13, 0.8 * step);
+    font(c, size, false);
     for (int k = 0; k < chart->lines; k++) {
-        double x = WIDTH - RIGHT + 18, y = TOP + 12 + 20.0 * k;
-        if (y > HEIGHT - 10) break;
+        double x = WIDTH - RIGHT + 18, y = TOP + 12 + step * k;
         const ves_chart_mark mark = chart->line[k].mark;
         const bool alone = mark == VES_MARK_CROSS || mark == VES_MARK_SPECK;
-        colour(c, mark == VES_MARK_CROSS ? ink : ves_colour_patch(k), 1);
+        colour(c, mark == VES_MARK_CROSS ? ink : ves_colour_line(k), 1);
         cairo_set_line_width(c, 2);
         dashes(c, k);
         if (!alone) {
@@ -215,7 +239,7 @@ static void legend(cairo_t *c, const ves_chart *chart)
         cairo_set_dash(c, NULL, 0, 0);
         if (alone) mark_draw(c, mark, x + 13, y - 4);
         colour(c, ink, 1);
-        words(c, x + 34, y, 0, chart->line[k].name);
+        words_fit(c, x + 34, y, 0, size, RIGHT - 58, chart->line[k].name);
     }
 }
 

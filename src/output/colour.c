@@ -8,6 +8,11 @@ enum { PATCHES = 8, STOPS = 9 };
 static const unsigned patch_colour[PATCHES] = {0x5088bd, 0xe2a854, 0x62ab8d, 0xc9717c,
                                                0x8d80b8, 0x7f919c, 0xb98d62, 0x57aab8};
 
+/* Lines stand side by side and cross: colours that also differ for who does not see red and green alike, after
+ * Okabe and Ito, without their yellow. */
+static const unsigned line_colour[PATCHES] = {0x0072b2, 0xe69f00, 0x009e73, 0xd55e00,
+                                              0xcc79a7, 0x404040, 0x56b4e9, 0x8b6b3d};
+
 /* ColorBrewer RdBu, reversed: blue below zero, red above. */
 static const unsigned diverging[STOPS] = {0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0, 0xf7f7f7,
                                           0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b};
@@ -30,6 +35,11 @@ ves_rgb ves_colour_mix(ves_rgb a, ves_rgb b, double share)
 ves_rgb ves_colour_patch(int index)
 {
     return rgb(patch_colour[index % PATCHES]);
+}
+
+ves_rgb ves_colour_line(int index)
+{
+    return rgb(line_colour[index % PATCHES]);
 }
 
 ves_rgb ves_colour_value(const ves_colour_scale *scale, double value)

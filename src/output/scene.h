@@ -16,6 +16,7 @@ typedef struct ves_colour_scale {
 } ves_colour_scale;
 
 ves_rgb ves_colour_patch(int index);
+ves_rgb ves_colour_line(int index); /* of charts */
 ves_rgb ves_colour_value(const ves_colour_scale *scale, double value);
 ves_rgb ves_colour_mix(ves_rgb a, ves_rgb b, double share); /* share of b */
 

@@ -30,6 +30,14 @@ static ves_status write(charts *c, const ves_chart *chart, const char *name)
     return path ? ves_chart_write(chart, path, c->diag) : ves_diag_fail(c->diag, VES_MEMORY);
 }
 
+/* The name in the legend; a method that draws no line says why. */
+static const char *name_of(charts *c, int entrant, bool drawn, const char *why)
+{
+    const char *name = c->bench->suite->entrant[entrant].name;
+    const char *noted = drawn ? name : ves_arena_format(&c->arena, "%s (%s)", name, why);
+    return noted ? noted : name;
+}
+
 /* Stairs go from 0 at the left end of the axis to the right end. */
 static void line_close(charts *c, int e, int count, const ves_chart_axis *axis)
 {
@@ -41,7 +49,7 @@ static void line_close(charts *c, int e, int count, const ves_chart_axis *axis)
     x[count + 1] = axis->high;
     y[count + 1] = y[count];
     c->line[e] = (ves_chart_line){
-        .name = c->bench->suite->entrant[e].name, .count = count + 2, .x = x, .y = y, .stairs = true};
+        .name = name_of(c, e, count > 0, "none"), .count = count + 2, .x = x, .y = y, .stairs = true};
 }
 
 /* The largest budget, for each variable or for n + 1. */
@@ -106,23 +114,27 @@ static ves_status convergence(charts *c, int bout)
     for (int e = 0; e < s->entrants; e++) {
         if (!ves_profile_convergence(c->input, &c->bench->tally, e, bout, least, &band[e]))
             return ves_diag_fail(c->diag, VES_MEMORY);
+        bool drawn = false;
         for (int k = 0; k < VES_PROFILE_POINTS; k++) {
+            drawn = drawn || isfinite(band[e].y[k]);
             if (isfinite(band[e].y[k])) high = fmax(high, band[e].y[k]), low = fmin(low, band[e].y[k]);
             if (isfinite(band[e].low[k])) low = fmin(low, band[e].low[k]);
         }
-        c->line[e] = (ves_chart_line){.name = s->entrant[e].name,
+        c->line[e] = (ves_chart_line){.name = name_of(c, e, drawn, "less than half feasible"),
                                       .count = VES_PROFILE_POINTS,
                                       .x = band[e].x,
                                       .y = band[e].y,
                                       .low = band[e].low,
-                                      .high = band[e].high};
+                                      .high = band[e].high,
+                                      .stairs = true};
     }
     chart_name(s->bout[bout].name, name);
     double bottom = pow(10, floor(log10(fmin(low, high / 10)))), top = pow(10, ceil(log10(high)));
     const ves_chart chart = {
         .title = s->bout[bout].name,
         .x = {"cost units", 1, fmax(ves_suite_budget(s, c->input->n[bout]), 2), true},
-        .y = {"best feasible value over the reference: median, quartiles", bottom, top, true},
+        .y = {"best feasible value minus the reference (1e-10: there, or below): median, quartiles", bottom,
+              top, true},
         .lines = s->entrants,
         .line = c->line};
     return write(c, &chart, name);
