@@ -101,17 +101,19 @@ static void json_print(const ves_bench *bench)
     ves_json_end(&json, '}');
 }
 
-int app_bench(app *a)
+static int bench_one(app *a)
 {
     const app_options *o = &a->options;
     listener l = {.a = a};
     const ves_bench_hooks hooks = {
         .begun = begun, .progress = progress, .stopped = stopped, .load = load, .data = &l};
-    const ves_bench_options options = {.jobs = o->jobs, .out = o->out, .no_files = o->no_files};
+    const ves_bench_options options = {
+        .jobs = o->jobs, .out = o->out, .no_files = o->no_files, .team = a->team};
     ves_bench *bench = NULL;
     app_interrupt_listen();
     ves_status status = (o->resume ? resume : begin)(a, &options, &hooks, &bench);
     app_say(a);
+    a->torn = status == VES_MEMORY || status == VES_FAULT;
     if (bench && o->json)
         json_print(bench);
     else if (bench)
@@ -120,4 +122,9 @@ int app_bench(app *a)
         fprintf(stderr, "to go on: %s bench --resume %s\n", app_called(), bench->folder);
     ves_bench_destroy(bench);
     return status == VES_INTERRUPTED ? APP_INTERRUPTED : app_code(status);
+}
+
+int app_bench(app *a)
+{
+    return app_together(a, bench_one);
 }

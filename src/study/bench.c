@@ -1,5 +1,6 @@
 #include "study/bench.h"
 
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -24,17 +25,19 @@ typedef struct bench {
     ves_bench shown;
     ves_arena arena;
     const ves_bench_hooks *hooks;
+    const ves_team *team; /* NULL: alone */
     ves_diag *diag;
     ves_ring *ring; /* [bouts] */
     ves_pool *pool;
     ves_bench_files files;
-    int *waiting;      /* [runs - done before] runs to be made, in the order in which they are begun */
+    int *waiting; /* [mine] runs to be made here, in the order in which they are begun */
+    int mine;
     ves_status status; /* the first failure; under the pool's lock */
 } bench;
 
 static int jobs_of(const ves_bench_options *options)
 {
-    long count = options->jobs > 0 ? options->jobs : sysconf(_SC_NPROCESSORS_ONLN);
+    long count = options->jobs > 0 ? options->jobs : options->team ? 1 : sysconf(_SC_NPROCESSORS_ONLN);
     return count < 1 ? 1 : count > JOBS_MOST ? JOBS_MOST : (int)count;
 }
 
@@ -42,6 +45,49 @@ static bool stopped(void *data)
 {
     const bench *b = data;
     return b->hooks->stopped && b->hooks->stopped(b->hooks->data);
+}
+
+/* --- ranks --- */
+
+static bool leads(const bench *b)
+{
+    return !b->team || b->team->rank == 0;
+}
+
+/* The status of all: the first that is neither VES_OK nor an interruption, else that. */
+static ves_status agree(const ves_team *team, ves_status status)
+{
+    int64_t mine = status, said;
+    const void *all;
+    size_t total;
+    if (!team) return status;
+    VES_TRY(team->exchange(team->data, &mine, sizeof mine, &all, &total));
+    status = VES_OK;
+    for (size_t k = 0; k < total / sizeof said; k++) {
+        memcpy(&said, (const char *)all + k * sizeof said, sizeof said);
+        if (said && (status == VES_OK || status == VES_INTERRUPTED)) status = (ves_status)said;
+    }
+    return status;
+}
+
+/* The first rank tells the others its folder, and what is done. */
+static ves_status join(bench *b)
+{
+    char path[PATH_MAX] = "";
+    size_t runs = (size_t)b->shown.runs;
+    if (!b->team) return VES_OK;
+    unsigned char *done = ves_arena_take(&b->arena, runs, 1);
+    VES_TRY(agree(b->team, done ? VES_OK : ves_diag_fail(b->diag, VES_MEMORY)));
+    if (leads(b)) snprintf(path, sizeof path, "%s", b->shown.folder);
+    for (size_t k = 0; k < runs; k++) done[k] = b->shown.outcome[k].done;
+    VES_TRY(b->team->tell(b->team->data, path, sizeof path));
+    VES_TRY(b->team->tell(b->team->data, done, runs));
+    if (leads(b)) return agree(b->team, VES_OK);
+    for (size_t k = 0; k < runs; k++) b->shown.outcome[k].done = done[k];
+    b->shown.folder = ves_arena_text(&b->arena, path, strlen(path));
+    ves_status status = b->shown.folder ? VES_OK : ves_diag_fail(b->diag, VES_MEMORY);
+    if (status == VES_OK) status = ves_bench_files_join(&b->files, b->shown.folder, b->team->rank, b->diag);
+    return agree(b->team, status);
 }
 
 /* --- one run --- */
@@ -209,21 +255,32 @@ static ves_status count_up(bench *b)
     return b->files.folder ? ves_bench_charts_write(shown, &input, b->diag) : VES_OK;
 }
 
-/* All methods on all problems, then once more: what is broken off can be compared. */
+/* All methods on all problems, then once more: what is broken off can be compared. Ranks take turns. */
 static ves_status line_up(bench *b)
 {
     const ves_suite *s = b->shown.suite;
-    int count = 0;
+    int count = 0, left = 0, ranks = b->team ? b->team->ranks : 1;
     b->waiting = ves_arena_take(&b->arena, (size_t)b->shown.runs, sizeof *b->waiting);
     if (!b->waiting) return ves_diag_fail(b->diag, VES_MEMORY);
     for (int k = 0; k < s->seeds; k++)
         for (int p = 0; p < s->bouts; p++)
             for (int e = 0; e < s->entrants; e++) {
                 int index = (e * s->bouts + p) * s->seeds + k;
-                if (!b->shown.outcome[index].done) b->waiting[count++] = index;
+                if (b->shown.outcome[index].done) continue;
+                if (left++ % ranks == (b->team ? b->team->rank : 0)) b->waiting[count++] = index;
             }
-    b->shown.done = b->shown.before = b->shown.runs - count;
+    b->shown.done = b->shown.before = b->shown.runs - left;
+    b->mine = count;
     return VES_OK;
+}
+
+/* What the other ranks have done. */
+static ves_status gather(bench *b)
+{
+    ves_status status = ves_bench_files_gather(&b->files, b->shown.suite, b->shown.outcome);
+    b->shown.done = 0;
+    for (int k = 0; k < b->shown.runs; k++) b->shown.done += b->shown.outcome[k].done;
+    return status;
 }
 
 static ves_status all_run(bench *b)
@@ -233,12 +290,19 @@ static ves_status all_run(bench *b)
     b->pool = status == VES_OK ? ves_pool_create(b->shown.jobs) : NULL;
     if (status == VES_OK && !b->pool) status = ves_diag_fail(b->diag, VES_MEMORY);
     if (status == VES_OK) {
-        ves_pool_run(b->pool, b->shown.runs - b->shown.before, task, b);
+        int before = b->shown.done;
+        ves_pool_run(b->pool, b->mine, task, b);
         status = b->status;
-        if (status == VES_OK && stopped(b) && b->shown.done < b->shown.runs) status = VES_INTERRUPTED;
+        if (status == VES_OK && stopped(b) && b->shown.done - before < b->mine) status = VES_INTERRUPTED;
         if (status == VES_MEMORY) ves_diag_fail(b->diag, status);
     }
     ves_pool_destroy(b->pool);
+    status = agree(b->team, status);
+    if (b->team && leads(b)) {
+        ves_status gathered = gather(b);
+        if (status == VES_OK) status = gathered;
+    }
+    if (!leads(b)) return status;
     if (status == VES_OK || status == VES_INTERRUPTED) {
         ves_status counted = count_up(b);
         if (counted != VES_OK) status = counted;
@@ -256,6 +320,7 @@ static bench *bench_create(ves_suite *suite, const ves_bench_options *options, c
         return NULL;
     }
     b->hooks = hooks;
+    b->team = options->team;
     b->diag = diag;
     b->shown.suite = suite;
     b->shown.jobs = jobs_of(options);
@@ -271,10 +336,13 @@ static bench *bench_create(ves_suite *suite, const ves_bench_options *options, c
 static ves_status finish(bench *b, ves_status status, ves_bench **out)
 {
     double begin = ves_study_clock();
+    status = agree(b->team, status);
+    if (status == VES_OK) status = join(b);
     if (status == VES_OK) status = all_run(b);
     b->shown.wall = ves_study_clock() - begin;
     ves_status closed = VES_OK;
-    if (b->files.folder && b->shown.tally.score) closed = ves_bench_report_write(&b->shown, b->diag);
+    if (leads(b) && b->files.folder && b->shown.tally.score)
+        closed = ves_bench_report_write(&b->shown, b->diag);
     for (int k = 0; b->ring && k < b->shown.suite->bouts; k++) ves_ring_close(&b->ring[k]);
     ves_status ended = ves_bench_files_end(&b->files, b->shown.suite, b->shown.outcome);
     if (closed == VES_OK) closed = ended;
@@ -303,6 +371,10 @@ ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, con
     bench *b = bench_create(suite, options, hooks, diag);
     if (!b) return VES_MEMORY;
     ves_status status = rings_open(b);
+    if (status == VES_OK && b->team && options->no_files)
+        status = ves_diag_add(diag, VES_ERROR, VES_USAGE, (ves_mark){0},
+                              "under mpirun a benchmark is gathered in its folder: not with --no-files");
+    if (!leads(b)) return finish(b, status, out);
     if (status == VES_OK && !options->no_files)
         status = options->out ? ves_folder_make(options->out, &b->arena, &folder, diag)
                               : ves_folder_number("runs", suite->name, &b->arena, &folder, diag);
@@ -363,7 +435,7 @@ static ves_status reopen(const char *folder, const ves_read_options *added, ves_
             ves_arena_take(&(*suite)->arena, (size_t)((*suite)->entrants + about.methods), sizeof *room);
         if (room) order(*suite, &about, room);
         if (!room || copies_use(*suite, folder) != VES_OK)
-            status = ves_diag_fail(diag, VES_MEMORY), ves_suite_destroy(*suite);
+            status = ves_diag_fail(diag, VES_MEMORY), ves_suite_destroy(*suite), *suite = NULL;
     }
     ves_arena_destroy(&arena);
     return status;
@@ -375,11 +447,14 @@ ves_status ves_bench_resume(const char *folder, const ves_read_options *added,
 {
     ves_suite *suite = NULL;
     *out = NULL;
-    VES_TRY(reopen(folder, added, &suite, diag));
+    ves_status status = agree(options->team, reopen(folder, added, &suite, diag));
+    if (status != VES_OK) ves_suite_destroy(suite);
+    VES_TRY(status); /* all have read what the first may write */
     bench *b = bench_create(suite, options, hooks, diag);
     if (!b) return VES_MEMORY;
     b->shown.folder = ves_arena_text(&b->arena, folder, strlen(folder));
-    ves_status status = b->shown.folder ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
+    if (!b->shown.folder) status = ves_diag_fail(diag, VES_MEMORY);
+    if (!leads(b)) return finish(b, status == VES_OK ? rings_open(b) : status, out);
     if (status == VES_OK) status = ves_bench_files_take(&b->files, b->shown.folder, &b->arena, diag);
     if (status == VES_OK) status = rings_open(b);
     if (status == VES_OK) status = ves_bench_files_again(&b->files, suite, b->shown.outcome);

@@ -2,7 +2,8 @@
  *
  *     suite.yaml, problems/   the suite and its problem files as run
  *     bench.json      where it was, which vesica ran it, and checksums of what it rests on
- *     runs.jsonl      one line a run, as they end; in the end in the order of the suite
+ *     runs.jsonl      one line a run, as they end; in the end in the order of the suite (of another rank of
+ *                     mpirun runs.RANK.jsonl, until the end)
  *     times.jsonl     what clocks say of each        report.json  what they come to
  *     ecdf.png, profile-*.png, convergence/PROBLEM.png
  *     journals/NNNNN.jsonl   the improvements of run NNNNN: [cost, value, violation] */
@@ -12,6 +13,7 @@
 #include "suite/tally.h"
 #include "vesica/diag.h"
 #include "vesica/objective.h"
+#include "vesica/run.h"
 
 typedef struct ves_bench ves_bench;
 
@@ -28,6 +30,7 @@ typedef struct ves_bench_options {
     int jobs;        /* 0: all threads of the machine */
     const char *out; /* this folder, new or empty; NULL: runs/NAME-NNNN */
     bool no_files;
+    const ves_team *team; /* processes that share out the runs, the first has the folder; NULL: alone */
 } ves_bench_options;
 
 /* What a problem of the suite turned out to be. */
@@ -61,7 +64,8 @@ struct ves_bench {
 };
 
 /* Takes the suite over, also when it fails. *bench is not NULL where runs were made, also after
- * VES_INTERRUPTED and when a file could not be written. */
+ * VES_INTERRUPTED and when a file could not be written; of a team only for the first. All of a team call with the
+ * same suite and options, and end with the same status, unless one is out of memory. */
 ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, const ves_bench_hooks *hooks,
                          ves_bench **bench, ves_diag *diag);
 

@@ -1,5 +1,6 @@
 #include "study/bench_folder.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -113,11 +114,18 @@ ves_status ves_bench_report_write(const ves_bench *bench, ves_diag *diag)
     return status;
 }
 
+/* runs.jsonl; of another rank runs.1.jsonl */
+static char *lines_path(const ves_bench_files *files, const char *name, int rank, ves_arena *arena)
+{
+    return rank ? ves_arena_format(arena, "%s/%s.%d.jsonl", files->folder, name, rank)
+                : ves_arena_format(arena, "%s/%s.jsonl", files->folder, name);
+}
+
 static ves_status open_lines(ves_bench_files *files, const char *mode)
 {
     ves_arena arena = {0};
-    char *runs = ves_folder_path(files->folder, "runs.jsonl", &arena);
-    char *times = ves_folder_path(files->folder, "times.jsonl", &arena);
+    char *runs = lines_path(files, "runs", files->rank, &arena);
+    char *times = lines_path(files, "times", files->rank, &arena);
     ves_status status = runs && times ? VES_OK : ves_diag_fail(files->diag, VES_MEMORY);
     if (status == VES_OK) {
         files->runs = fopen(runs, mode);
@@ -155,6 +163,34 @@ ves_status ves_bench_files_begin(ves_bench_files *files)
     return open_lines(files, "wbx");
 }
 
+ves_status ves_bench_files_join(ves_bench_files *files, const char *folder, int rank, ves_diag *diag)
+{
+    *files = (ves_bench_files){.folder = folder, .rank = rank, .lock = {.fd = -1}, .diag = diag};
+    return open_lines(files, "ab");
+}
+
+/* Each rank other than 0 that has left lines: runs.RANK.jsonl. */
+static void each_rank(ves_bench_files *files, void (*look)(ves_bench_files *, int rank, void *), void *data)
+{
+    DIR *folder = opendir(files->folder);
+    for (struct dirent *entry; folder && (entry = readdir(folder));) {
+        int rank = 0, end = 0;
+        if (sscanf(entry->d_name, "runs.%d.jsonl%n", &rank, &end) == 1 && end && !entry->d_name[end])
+            look(files, rank, data);
+    }
+    if (folder) closedir(folder);
+}
+
+static void forget(ves_bench_files *files, int rank, void *data)
+{
+    ves_arena arena = {0};
+    char *runs = lines_path(files, "runs", rank, &arena), *times = lines_path(files, "times", rank, &arena);
+    (void)data;
+    if (times) unlink(times);
+    if (runs) unlink(runs);
+    ves_arena_destroy(&arena);
+}
+
 /* All lines of one of the files, in the order of the runs. */
 static ves_status lines_write(const ves_bench_files *files, const char *name, const ves_suite *suite,
                               const ves_outcome *outcome)
@@ -176,21 +212,24 @@ static ves_status lines_write(const ves_bench_files *files, const char *name, co
     return status;
 }
 
-static ves_status lines_sort(const ves_bench_files *files, const ves_suite *suite, const ves_outcome *outcome)
+/* Those of all ranks, which are then not needed any more. */
+static ves_status lines_sort(ves_bench_files *files, const ves_suite *suite, const ves_outcome *outcome)
 {
     VES_TRY(lines_write(files, "times.jsonl", suite, outcome));
-    return lines_write(files, "runs.jsonl", suite, outcome);
+    VES_TRY(lines_write(files, "runs.jsonl", suite, outcome));
+    each_rank(files, forget, NULL);
+    return VES_OK;
 }
 
 ves_status ves_bench_files_end(ves_bench_files *files, const ves_suite *suite, const ves_outcome *outcome)
 {
     bool bad = (files->runs && fclose(files->runs)) | (files->times && fclose(files->times));
     ves_status status = bad ? ves_file_complain(files->folder, errno, files->diag) : VES_OK;
-    if (files->written) {
+    if (files->written && !files->rank) {
         ves_status sorted = lines_sort(files, suite, outcome);
         if (status == VES_OK) status = sorted;
     }
-    if (files->folder) ves_lock_drop(&files->lock);
+    if (files->folder && !files->rank) ves_lock_drop(&files->lock);
     files->runs = files->times = NULL;
     return status;
 }
@@ -305,8 +344,8 @@ static ves_status load(const char *path, ves_arena *arena, const char **text, ve
 
 /* One line of runs.jsonl. What it says of a run is lost only if it, or the journal, is damaged: then the run is
  * made again. */
-static void line_read(const ves_bench_files *files, const ves_suite *suite, const char *text, size_t length,
-                      int number, ves_outcome *outcome)
+static void line_read(const ves_bench_files *files, const ves_suite *suite, const char *path, int number,
+                      const char *text, size_t length, ves_outcome *outcome)
 {
     ves_arena arena = {0};
     const ves_node *line = ves_study_json(text, length, &arena);
@@ -318,8 +357,7 @@ static void line_read(const ves_bench_files *files, const ves_suite *suite, cons
     if (o && !twice) o->done = good && journal_read(files->folder, index, o);
     if (!o || (!good && !twice))
         ves_diag_add(files->diag, VES_WARNING, VES_SYNTAX, NOWHERE,
-                     "\"%s/runs.jsonl\": line %d is damaged, or of no run of this suite: left out",
-                     files->folder, number);
+                     "\"%s\": line %d is damaged, or of no run of this suite: left out", path, number);
     else if (!o->done)
         ves_diag_add(files->diag, VES_WARNING, VES_SYNTAX, NOWHERE,
                      "\"%s\" is missing or damaged: run %d is made again", journal ? journal : "", index);
@@ -328,12 +366,12 @@ static void line_read(const ves_bench_files *files, const ves_suite *suite, cons
 }
 
 /* Lines come in the order in which runs have ended. The last may have been cut off. */
-static void lines_read(const ves_bench_files *files, const ves_suite *suite, const char *text,
-                       ves_outcome *outcome)
+static void lines_read(const ves_bench_files *files, const ves_suite *suite, const char *path,
+                       const char *text, ves_outcome *outcome)
 {
     size_t length = strcspn(text, "\n");
     for (int number = 1; text[length]; number++, length = strcspn(text, "\n")) {
-        line_read(files, suite, text, length, number, outcome);
+        line_read(files, suite, path, number, text, length, outcome);
         text += length + 1;
     }
 }
@@ -356,20 +394,55 @@ static void times_read(const char *text, int runs, ves_outcome *outcome)
     }
 }
 
-ves_status ves_bench_files_again(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome)
+typedef struct reading {
+    const ves_suite *suite;
+    ves_outcome *outcome;
+    ves_status status;
+} reading;
+
+/* What one rank has left. */
+static void read_back(ves_bench_files *files, int rank, void *data)
+{
+    reading *r = data;
+    ves_arena arena = {0};
+    const char *text = NULL, *clock = NULL, *path = lines_path(files, "runs", rank, &arena);
+    ves_status status = load(path, &arena, &text, files->diag);
+    if (status == VES_OK)
+        status = load(lines_path(files, "times", rank, &arena), &arena, &clock, files->diag);
+    if (status == VES_OK) {
+        lines_read(files, r->suite, path, text, r->outcome);
+        times_read(clock, ves_suite_runs(r->suite), r->outcome);
+    }
+    if (r->status == VES_OK) r->status = status;
+    ves_arena_destroy(&arena);
+}
+
+ves_status ves_bench_files_gather(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome)
+{
+    reading r = {.suite = suite, .outcome = outcome};
+    files->written = true;
+    each_rank(files, read_back, &r);
+    return r.status;
+}
+
+static void tidy(const ves_bench_files *files)
 {
     ves_arena arena = {0};
-    const char *text = NULL, *clock = NULL;
-    ves_status status = journals_open(files);
-    if (status == VES_OK)
-        status = load(ves_folder_path(files->folder, "runs.jsonl", &arena), &arena, &text, files->diag);
-    if (status == VES_OK)
-        status = load(ves_folder_path(files->folder, "times.jsonl", &arena), &arena, &clock, files->diag);
-    if (status == VES_OK) {
-        lines_read(files, suite, text, outcome);
-        times_read(clock, ves_suite_runs(suite), outcome);
-        status = lines_sort(files, suite, outcome); /* without what was cut off or damaged */
-    }
+    char *journals = ves_folder_path(files->folder, "journals", &arena);
+    ves_folder_tidy(files->folder, &arena);
+    if (journals) ves_folder_tidy(journals, &arena);
     ves_arena_destroy(&arena);
-    return status == VES_OK ? open_lines(files, "ab") : status;
+}
+
+ves_status ves_bench_files_again(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome)
+{
+    reading r = {.suite = suite, .outcome = outcome};
+    VES_TRY(journals_open(files));
+    tidy(files);
+    read_back(files, 0, &r);
+    VES_TRY(r.status);
+    VES_TRY(ves_bench_files_gather(files, suite, outcome));
+    VES_TRY(lines_sort(files, suite, outcome)); /* without what was cut off or damaged */
+    files->written = false;
+    return open_lines(files, "ab");
 }

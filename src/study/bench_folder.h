@@ -11,6 +11,7 @@
 /* Open files of a folder in use. */
 typedef struct ves_bench_files {
     const char *folder;
+    int rank; /* of the processes that mpirun has started: others than 0 write to runs.RANK.jsonl */
     FILE *runs, *times;
     bool written; /* lines, since they were in order */
     ves_lock lock;
@@ -24,6 +25,9 @@ ves_status ves_bench_files_begin(ves_bench_files *files);
 /* Opens those of a folder, and reads the runs that hold, outcome[ves_suite_runs]. What is damaged is told, and done
  * again. */
 ves_status ves_bench_files_again(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome);
+/* Another rank joins the one that has the folder; in the end that one reads what the others have written. */
+ves_status ves_bench_files_join(ves_bench_files *files, const char *folder, int rank, ves_diag *diag);
+ves_status ves_bench_files_gather(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome);
 /* Puts the lines of the runs that are done in order, closes the files and lets the folder go. */
 ves_status ves_bench_files_end(ves_bench_files *files, const ves_suite *suite, const ves_outcome *outcome);
 

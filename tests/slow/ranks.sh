@@ -72,4 +72,39 @@ for signal in KILL TERM; do
     same_sweep alone "sweep$signal$n"
   done
 done
+
+# A benchmark: the ranks share out its runs; what one process, or another number of ranks, has begun goes on.
+cat >suite.yaml <<EOF
+vesica: 1
+suite: ranks
+problems: [{function: rastrigin, n: 3, rotate: true}, {function: g05}, {file: $1/problems/bottle.yaml}]
+methods: {auto: {search: auto}, nm: {nlopt: LN_NELDERMEAD}, anneal: {search: [{anneal: {}}], gradients: false}}
+seeds: 4
+budget: {per_dimension: 3000}
+EOF
+bench() { count=$1 && shift && mpirun --oversubscribe -n "$count" "$build/vesica" bench "$@" --progress none >out 2>&1; }
+same_bench() {
+  cmp "$1/report.json" "$2/report.json" && diff -r "$1/journals" "$2/journals" && cmp "$1/runs.jsonl" "$2/runs.jsonl"
+  [ ! -e "$2/lock" ] && [ -z "$(ls "$2" | grep 'runs\.[0-9]')" ]
+}
+"$2/vesica" bench suite.yaml --out bench --jobs 1 >out 2>&1
+for n in 1 2 3; do
+  bench $n suite.yaml --out bench$n
+  same_bench bench bench$n
+done
+for signal in KILL TERM; do
+  run=bench$signal
+  mpirun --oversubscribe -n 3 "$build/vesica" bench suite.yaml --out "$run" --progress none >out 2>&1 &
+  child=$!
+  until [ "$(cat "$run"/runs*.jsonl 2>/dev/null | wc -l)" -gt 5 ]; do sleep 0.02; done
+  kill -s $signal $child
+  wait $child || true
+  until bench 2 --resume "$run"; do
+    grep -q 'wait until it is done' out || { cat out >&2 && exit 1; }
+    sleep 0.2
+  done
+  same_bench bench "$run"
+done
+bench 2 suite.yaml --no-files && exit 1
+grep -q 'not with --no-files' out
 echo "1, 2 and 3 ranks: the same bytes"
