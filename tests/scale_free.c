@@ -36,8 +36,8 @@ static ves_run *run(const char *end, const char *L, ves_problem **problem)
     snprintf(text, sizeof text, "%s%s", TUBE, end);
     ves_diag *diag = ves_diag_create();
     ves_override set = {"L", L};
-    ves_status status = ves_problem_read_text("t", text, strlen(text),
-                                              &(ves_read_options){1, &set, NULL, NULL}, problem, diag);
+    ves_status status = ves_problem_read_text(
+        "t", text, strlen(text), &(ves_read_options){.overrides = 1, .override = &set}, problem, diag);
     ves_run *made = NULL;
     if (status == VES_OK)
         status =

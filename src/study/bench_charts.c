@@ -120,7 +120,7 @@ static ves_status convergence(charts *c, int bout)
             if (isfinite(band[e].y[k])) high = fmax(high, band[e].y[k]), low = fmin(low, band[e].y[k]);
             if (isfinite(band[e].low[k])) low = fmin(low, band[e].low[k]);
         }
-        c->line[e] = (ves_chart_line){.name = name_of(c, e, drawn, "less than half feasible"),
+        c->line[e] = (ves_chart_line){.name = name_of(c, e, drawn, "infeasible"),
                                       .count = VES_PROFILE_POINTS,
                                       .x = band[e].x,
                                       .y = band[e].y,
