@@ -274,6 +274,25 @@ Test(suite_landscape, nothing_is_lower_than_the_optimum)
     for_all(lowest);
 }
 
+/* A ring with a cusp between two nodes of the sum, of length 2 pi and area 0.7 pi, had 7.73; and the other ring in
+ * which descents end, with its long axis along x, bends more than the one that is told. */
+Test(suite_landscape, the_elastica_has_no_cusps)
+{
+    static const double cusp[] = {0.554662024554755,   -0.128174904596847, 0.162892890585771,
+                                  0.0207745618819231,  1.30329727610618,   0.0225542591473333,
+                                  -0.0299886102481608, -0.0295184505315671},
+                        other[] = {1.28885214922476,    -0.126519550678168, 0.0371524656561372,
+                                   -0.0214433982674778, 0.526521150071294,  -0.0361352713563027,
+                                   0.0812857281950754,  -0.0371740501665956};
+    const ves_landscape *l = ves_landscape_find("elastica");
+    double constraint[2], place[8];
+    ves_verdict out = {.constraint = constraint};
+    cr_expect(l->eval(8, cusp, false, &out) == VES_DEGENERATE);
+    cr_expect(l->eval(8, other, false, &out) == VES_OK);
+    cr_expect(fabs(constraint[0]) < 1e-12 && fabs(constraint[1]) < 1e-12);
+    cr_expect(out.value > l->optimum(8, place) + 2e-4, "%.10g", out.value);
+}
+
 Test(suite_instance, turns_are_orthogonal_and_instances_differ)
 {
     for (int n = 1; n <= 40; n += 13) {

@@ -16,11 +16,12 @@ extern const double ves_elastica_place[VES_ELASTICA]; /* the best, of length 2 p
 extern const double ves_elastica_least;               /* its integral of curvature squared */
 extern const double ves_elastica_reduced;             /* 4 pi area / length^2 */
 
-/* The optimum of a landscape in these amplitudes. */
+/* The optimum of a landscape in all these amplitudes. */
 double ves_elastica_optimum(int n, double *x);
 
 /* Trapezoidal sums over equal steps of t. */
 typedef struct ves_elastica {
+    bool resolved; /* it turns by no more than 0.5 between two nodes: else the bending is no integral */
     double bending, length, area;
     double bending_slope[VES_ELASTICA], length_slope[VES_ELASTICA], area_slope[VES_ELASTICA];
 } ves_elastica;

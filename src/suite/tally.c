@@ -22,7 +22,7 @@ double ves_tally_value(const ves_outcome *outcome)
 }
 
 /* A violation that is worth nothing, in units of what is allowed. */
-static const double nothing = 1e-3;
+static const double nothing = 1e-2;
 
 /* A known optimum is contradicted by a value below it by more than constraints may be worth. */
 static double contradiction(const ves_suite *s, const ves_bout *bout, double optimum, const ves_outcome *o)

@@ -7,7 +7,7 @@
 static ves_status eval(int n, const double *x, bool slopes, ves_verdict *out)
 {
     ves_elastica e;
-    if (!ves_elastica_measure(x, slopes, &e)) return VES_DEGENERATE;
+    if (!ves_elastica_measure(x, slopes, &e) || !e.resolved) return VES_DEGENERATE;
     double area = ves_elastica_reduced * VES_PI;
     out->value = e.bending;
     out->constraint[0] = e.length / VES_TWO_PI - 1;

@@ -7,7 +7,7 @@
 static ves_status eval(int n, const double *x, bool slopes, ves_verdict *out)
 {
     ves_elastica e;
-    if (!ves_elastica_measure(x, slopes, &e)) return VES_DEGENERATE;
+    if (!ves_elastica_measure(x, slopes, &e) || !e.resolved) return VES_DEGENERATE;
     out->value = ves_elastica_energy(&e, slopes ? out->gradient : NULL);
     out->constraint[0] = ves_elastica_shape(&e, slopes ? out->jacobian : NULL) / ves_elastica_reduced - 1;
     for (int i = 0; slopes && i < n; i++) out->jacobian[i] /= ves_elastica_reduced;
