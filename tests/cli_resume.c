@@ -193,14 +193,11 @@ Test(cli_resume, mpirun_is_recognised)
 }
 
 /* What only one process may do is not done by each of them: rank 0 says so, the others are silent. */
-Test(cli_resume, only_a_run_is_shared_by_the_processes_of_mpirun)
+Test(cli_resume, only_what_can_be_shared_is_by_the_processes_of_mpirun)
 {
-    static const char *const words[] = {"check " PROBLEMS "bottle.yaml",
-                                        "eval " PROBLEMS "bottle.yaml",
+    static const char *const words[] = {"check " PROBLEMS "bottle.yaml", "eval " PROBLEMS "bottle.yaml",
                                         "export " PROBLEMS "bottle.yaml --to stl --out b.stl",
-                                        "new tube tube.yaml",
-                                        "journal none",
-                                        "bench " PROBLEMS "../bench/suites/elastica.yaml"};
+                                        "new tube tube.yaml", "journal none"};
     root_make();
     setenv("OMPI_COMM_WORLD_SIZE", "3", 1);
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)
@@ -216,5 +213,9 @@ Test(cli_resume, only_a_run_is_shared_by_the_processes_of_mpirun)
     cr_expect(access("b.stl", F_OK) && access("tube.yaml", F_OK) && access("runs", F_OK),
               "something was written");
     expect(vesica(NULL, "version"), 0, "vesica", NULL, "what writes nothing may be asked");
+    setenv("OMPI_COMM_WORLD_RANK", "0", 1);
+    outcome o = vesica(NULL, "bench " PROBLEMS "../bench/suites/elastica.yaml");
+    cr_expect(strstr(o.err, "cannot share") == NULL, "a benchmark is shared: %s", o.err);
+    done(&o);
     root_remove();
 }

@@ -106,7 +106,8 @@ static int unknown(app *a, const char *word)
 /* Commands that mpirun may start: its processes share the work, or there is none that they could do to each other. */
 static bool shares(const app_command *command)
 {
-    static const char *const word[] = {"run", "sweep", "list", "schema", "explain", "version", "help"};
+    static const char *const word[] = {"run",    "sweep",   "bench",   "list",
+                                       "schema", "explain", "version", "help"};
     for (size_t k = 0; k < sizeof word / sizeof *word; k++)
         if (!strcmp(word[k], command->name)) return true;
     return false;
