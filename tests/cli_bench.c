@@ -30,6 +30,9 @@ static int count_of(const char *path, const char *word)
     return count;
 }
 
+/* One limit for all: Criterion forgets a timer of its own where tests that run side by side have different ones. */
+TestSuite(cli_bench, .timeout = 600);
+
 Test(cli_bench, the_same_bytes_for_any_number_of_jobs)
 {
     root_make();
@@ -53,7 +56,7 @@ Test(cli_bench, the_same_bytes_for_any_number_of_jobs)
 }
 
 /* Cut anywhere, in the middle of a line too, and gone on with; then with one method more. */
-Test(cli_bench, goes_on_where_it_was_broken_off, .timeout = 120)
+Test(cli_bench, goes_on_where_it_was_broken_off)
 {
     root_make();
     write_file("s.yaml", suite);
@@ -78,7 +81,7 @@ Test(cli_bench, goes_on_where_it_was_broken_off, .timeout = 120)
     root_remove();
 }
 
-Test(cli_bench, one_process_at_a_time, .timeout = 120)
+Test(cli_bench, one_process_at_a_time)
 {
     root_make();
     write_file("s.yaml", "vesica: 1\nsuite: slow\nproblems: [{function: sphere, n: 2}]\nseeds: 2\n"
@@ -96,7 +99,7 @@ Test(cli_bench, one_process_at_a_time, .timeout = 120)
 }
 
 /* Killed at any moment. */
-Test(cli_bench, survives_kills, .timeout = 120)
+Test(cli_bench, survives_kills)
 {
     root_make();
     write_file("s.yaml", suite);
@@ -153,7 +156,7 @@ static int failed_with(const char *path, const char *method, const char *reason)
 }
 
 /* What programs may do wrong is recorded, and the others go on. */
-Test(cli_bench, programs_take_part_and_what_they_do_wrong_is_recorded, .timeout = 120)
+Test(cli_bench, programs_take_part_and_what_they_do_wrong_is_recorded)
 {
     static const char *const faults[][2] = {{"none", "cannot start"},
                                             {"talks", "said what is no request: hello"},
@@ -203,7 +206,7 @@ static bool alive(const char *word)
 }
 
 /* Neither a program that does not read nor one that hangs holds up a signal, and what is killed takes it along. */
-Test(cli_bench, ends_with_a_program_that_does_not_listen, .timeout = 120)
+Test(cli_bench, ends_with_a_program_that_does_not_listen)
 {
     root_make();
     write_file("deaf.py", DEAF);
@@ -235,7 +238,7 @@ Test(cli_bench, ends_with_a_program_that_does_not_listen, .timeout = 120)
 }
 
 /* Every suite that is shipped, as far as a few evaluations go; and one in which ends are drawn together by symmetry. */
-Test(cli_bench, every_suite_that_is_shipped_runs, .timeout = 600)
+Test(cli_bench, every_suite_that_is_shipped_runs)
 {
     int count = 0;
     root_make();
@@ -275,7 +278,7 @@ static double lightest(void)
     return best;
 }
 
-Test(cli_bench, an_objective_of_a_plugin, .timeout = 120)
+Test(cli_bench, an_objective_of_a_plugin)
 {
     root_make();
     cr_assert(system("cc -std=c17 -shared -fPIC -I" VESICA_SOURCE "/include -o tower.so " VESICA_SOURCE

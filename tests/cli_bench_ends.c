@@ -32,8 +32,11 @@ static void replace(const char *path, const char *old, const char *new)
     free(text);
 }
 
+/* One limit for all: Criterion forgets a timer of its own where tests that run side by side have different ones. */
+TestSuite(cli_bench_ends, .timeout = 600);
+
 /* The first run hangs; what ends meanwhile is written at once, and a stop says how far it came. */
-Test(cli_bench_ends, a_run_that_is_over_is_kept, .timeout = 120)
+Test(cli_bench_ends, a_run_that_is_over_is_kept)
 {
     root_make();
     write_file("s.yaml", "vesica: 1\nsuite: one hangs\nproblems: [{function: sphere, n: 3}]\nseeds: 1\n"
@@ -59,7 +62,7 @@ static const char mixed[] =
     "  random: {program: [python3, ./random.py]}\n";
 
 /* Benchmarks of different problems, programs or versions are not mixed; one of the same goes on from anywhere. */
-Test(cli_bench_ends, goes_on_only_with_the_same, .timeout = 240)
+Test(cli_bench_ends, goes_on_only_with_the_same)
 {
     static const struct {
         const char *file, *old, *new, *hint;
@@ -94,7 +97,7 @@ Test(cli_bench_ends, goes_on_only_with_the_same, .timeout = 240)
 }
 
 /* Lines in any order hold; what is damaged is named and made again. */
-Test(cli_bench_ends, what_is_damaged_is_made_again, .timeout = 120)
+Test(cli_bench_ends, what_is_damaged_is_made_again)
 {
     root_make();
     write_file("s.yaml", "vesica: 1\nsuite: two\nproblems: [{function: rastrigin, n: 2}]\nseeds: 2\n"
@@ -190,7 +193,7 @@ Test(cli_bench_ends, nobody_wins_outside_the_box)
 
 /* The best can of area 3 pi: a method that uses up what the area is allowed sets no reference for one that does
  * not. Its goal is a maximum, and is told as one. */
-Test(cli_bench_ends, the_reference_meets_its_constraints_exactly, .timeout = 120)
+Test(cli_bench_ends, the_reference_meets_its_constraints_exactly)
 {
     const double truth = 3.14159265358979323846 / sqrt(2);
     char text[600];
