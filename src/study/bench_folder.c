@@ -175,7 +175,7 @@ static void each_rank(ves_bench_files *files, void (*look)(ves_bench_files *, in
     DIR *folder = opendir(files->folder);
     for (struct dirent *entry; folder && (entry = readdir(folder));) {
         int rank = 0, end = 0;
-        if (sscanf(entry->d_name, "runs.%d.jsonl%n", &rank, &end) == 1 && end && !entry->d_name[end])
+        if (sscanf(entry->d_name, "runs.%d.jsonl%n", &rank, &end) == 1 && rank > 0 && end && !entry->d_name[end])
             look(files, rank, data);
     }
     if (folder) closedir(folder);
@@ -420,8 +420,8 @@ static void read_back(ves_bench_files *files, int rank, void *data)
 ves_status ves_bench_files_gather(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome)
 {
     reading r = {.suite = suite, .outcome = outcome};
-    files->written = true;
     each_rank(files, read_back, &r);
+    if (r.status == VES_OK) files->written = true; /* else sorting would lose what could not be read */
     return r.status;
 }
 
