@@ -98,12 +98,13 @@ bool ves_search_choice(ves_slot slot, int index, ves_choice *choice);
 /* NLopt local search on scaled quantities: variables in [0, 1], objective over its largest slope,
  * constraints over theirs. 0 (NULL, false) is the default of everything. */
 typedef struct ves_polish {
-    const char *algorithm; /* slsqp mma ccsa lbfgs cobyla bobyqa sbplx auglag; NULL: by gradients and constraints */
-    long evaluations;      /* budget of the stage, proofs too; 0: from the number of variables */
-    double x_tolerance;    /* relative to the range; 0: 1e-9 */
-    double f_tolerance;    /* relative; 0: 1e-12 */
-    int starts;            /* how many ends of the stage before are polished, best first; 0: all */
-    bool stay;             /* on a saddle; false: leave it along a direction of negative curvature (needs
+    const char
+        *algorithm; /* slsqp mma ccsa lbfgs cobyla bobyqa sbplx auglag; NULL: by gradients and constraints */
+    long evaluations;   /* budget of the stage, proofs too; 0: from the number of variables */
+    double x_tolerance; /* relative to the range; 0: 1e-9 */
+    double f_tolerance; /* relative; 0: 1e-12 */
+    int starts;         /* how many ends of the stage before are polished, best first; 0: all */
+    bool stay;          /* on a saddle; false: leave it along a direction of negative curvature (needs
                               gradients) */
 } ves_polish;
 

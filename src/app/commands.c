@@ -39,7 +39,8 @@ const app_command app_commands[] = {
      "In SI units, as in result.json, with the sign of the goal. A constraint's column says by how much it "
      "is missed,\n"
      "relative to its size: 0 or less is met. T: temperature; stage and chain as in trace.jsonl.\n"
-     "--png draws how the run came to its best: the best feasible value and what was accepted, over the evaluations."},
+     "--png draws how the run came to its best: the best feasible value and what was accepted, over the "
+     "evaluations."},
     {"sample", "sample FILE|RUN", "exact points and derivatives of one patch, as CSV", 1, 1,
      "set|start|plugin|patch|points|spine", app_sample,
      "u runs from 0 to 1 along the patch and v from 0 to 2 pi round it, also where a `domain` gives the "

@@ -175,7 +175,8 @@ static void each_rank(ves_bench_files *files, void (*look)(ves_bench_files *, in
     DIR *folder = opendir(files->folder);
     for (struct dirent *entry; folder && (entry = readdir(folder));) {
         int rank = 0, end = 0;
-        if (sscanf(entry->d_name, "runs.%d.jsonl%n", &rank, &end) == 1 && rank > 0 && end && !entry->d_name[end])
+        if (sscanf(entry->d_name, "runs.%d.jsonl%n", &rank, &end) == 1 && rank > 0 && end &&
+            !entry->d_name[end])
             look(files, rank, data);
     }
     if (folder) closedir(folder);
