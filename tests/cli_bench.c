@@ -13,23 +13,6 @@ static const char suite[] =
     "  crs2: {nlopt: GN_CRS2_LM}\n  mlsl: {nlopt: G_MLSL_LDS, local: LD_LBFGS}\n"
     "  auglag: {nlopt: AUGLAG, local: LD_LBFGS}\n";
 
-static void same_file(const char *a, const char *b)
-{
-    char *x = slurp(a), *y = slurp(b);
-    cr_expect(!strcmp(x, y), "%s and %s differ", a, b);
-    free(x);
-    free(y);
-}
-
-static int count_of(const char *path, const char *word)
-{
-    char *text = slurp(path);
-    int count = 0;
-    for (const char *at = text; (at = strstr(at, word)); at++) count++;
-    free(text);
-    return count;
-}
-
 /* One limit for all: Criterion forgets a timer of its own where tests that run side by side have different ones. */
 TestSuite(cli_bench, .timeout = 600);
 

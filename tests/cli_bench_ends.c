@@ -3,23 +3,6 @@
 
 #include "program.h"
 
-static int count_of(const char *path, const char *word)
-{
-    char *text = slurp(path);
-    int count = 0;
-    for (const char *at = text; (at = strstr(at, word)); at++) count++;
-    free(text);
-    return count;
-}
-
-static void same_file(const char *a, const char *b)
-{
-    char *x = slurp(a), *y = slurp(b);
-    cr_expect(!strcmp(x, y), "%s and %s differ", a, b);
-    free(x);
-    free(y);
-}
-
 /* In the copy of a file, for a test that spoils it. */
 static void replace(const char *path, const char *old, const char *new)
 {

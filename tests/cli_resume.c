@@ -6,7 +6,7 @@
 
 #define CURVATURE PROBLEMS "curvature.yaml --evaluations 200000 --progress none"
 
-static void same_file(const char *a, const char *b, const char *name)
+static void same_bytes_of(const char *a, const char *b, const char *name)
 {
     char command[500];
     snprintf(command, sizeof command, "cmp %s/%s %s/%s", a, name, b, name);
@@ -16,7 +16,7 @@ static void same_file(const char *a, const char *b, const char *name)
 static void same_run(const char *a, const char *b)
 {
     static const char *const names[] = {"result.json", "trace.jsonl", "journal", "run.json", "best.vtp"};
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++) same_file(a, b, names[k]);
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) same_bytes_of(a, b, names[k]);
 }
 
 /* Starts a run, and sends it the signal when some of its journal is on the disk. */

@@ -85,14 +85,6 @@ static double constraint(const json *j, const char *key)
     return strtod(node->text, NULL);
 }
 
-static void same_file(const char *a, const char *b)
-{
-    char *x = slurp(a), *y = slurp(b);
-    cr_expect(!strcmp(x, y), "%s and %s differ", a, b);
-    free(x);
-    free(y);
-}
-
 static void same_sweep(const char *a, const char *b, int points)
 {
     static const char *const file[] = {"problem.yaml", "sweep.json", "points.jsonl",
@@ -109,15 +101,6 @@ static void same_sweep(const char *a, const char *b, int points)
         cr_expect((access(x, F_OK) == 0) == (access(y, F_OK) == 0), "%s", x);
         if (access(x, F_OK) == 0) same_file(x, y);
     }
-}
-
-static int count_of(const char *path, const char *what)
-{
-    char *text = slurp(path);
-    int count = 0;
-    for (const char *at = text; (at = strstr(at, what)); at++) count++;
-    free(text);
-    return count;
 }
 
 /* --- what comes out --- */

@@ -121,6 +121,24 @@ static inline void write_file(const char *path, const char *text)
     fclose(out);
 }
 
+static inline void same_file(const char *a, const char *b)
+{
+    char *x = slurp(a), *y = slurp(b);
+    cr_expect(strcmp(x, y) == 0, "%s and %s differ", a, b);
+    free(x);
+    free(y);
+}
+
+/* How often a word stands in a file. */
+static inline int count_of(const char *path, const char *word)
+{
+    char *text = slurp(path);
+    int count = 0;
+    for (const char *at = text; (at = strstr(at, word)); at++) count++;
+    free(text);
+    return count;
+}
+
 /* Until there is something in a file: a sign that the program is at work. */
 static inline void wait_for_file(const char *path)
 {
