@@ -3,7 +3,6 @@
 #include <limits.h>
 #include <math.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/diag.h"
 #include "base/pool.h"
@@ -17,8 +16,7 @@
 #include "study/optima.h"
 #include "study/ring.h"
 #include "study/run.h"
-
-enum { JOBS_MOST = 256 };
+#include "study/team.h"
 
 /* What ves_bench_run makes: first what the caller holds. */
 typedef struct bench {
@@ -35,12 +33,6 @@ typedef struct bench {
     ves_status status; /* the first failure; under the pool's lock */
 } bench;
 
-static int jobs_of(const ves_bench_options *options)
-{
-    long count = options->jobs > 0 ? options->jobs : options->team ? 1 : sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count > JOBS_MOST ? JOBS_MOST : (int)count;
-}
-
 static bool stopped(void *data)
 {
     const bench *b = data;
@@ -49,27 +41,6 @@ static bool stopped(void *data)
 
 /* --- ranks --- */
 
-static bool leads(const bench *b)
-{
-    return !b->team || b->team->rank == 0;
-}
-
-/* The status of all: the first that is neither VES_OK nor an interruption, else that. */
-static ves_status agree(const ves_team *team, ves_status status)
-{
-    int64_t mine = status, said;
-    const void *all;
-    size_t total;
-    if (!team) return status;
-    VES_TRY(team->exchange(team->data, &mine, sizeof mine, &all, &total));
-    status = VES_OK;
-    for (size_t k = 0; k < total / sizeof said; k++) {
-        memcpy(&said, (const char *)all + k * sizeof said, sizeof said);
-        if (said && (status == VES_OK || status == VES_INTERRUPTED)) status = (ves_status)said;
-    }
-    return status;
-}
-
 /* The first rank tells the others its folder, and what is done. */
 static ves_status join(bench *b)
 {
@@ -77,17 +48,17 @@ static ves_status join(bench *b)
     size_t runs = (size_t)b->shown.runs;
     if (!b->team) return VES_OK;
     unsigned char *done = ves_arena_take(&b->arena, runs, 1);
-    VES_TRY(agree(b->team, done ? VES_OK : ves_diag_fail(b->diag, VES_MEMORY)));
-    if (leads(b)) snprintf(path, sizeof path, "%s", b->shown.folder);
+    VES_TRY(ves_team_meet(b->team, done ? VES_OK : ves_diag_fail(b->diag, VES_MEMORY)));
+    if (ves_team_leads(b->team)) snprintf(path, sizeof path, "%s", b->shown.folder);
     for (size_t k = 0; k < runs; k++) done[k] = b->shown.outcome[k].done;
     VES_TRY(b->team->tell(b->team->data, path, sizeof path));
     VES_TRY(b->team->tell(b->team->data, done, runs));
-    if (leads(b)) return agree(b->team, VES_OK);
+    if (ves_team_leads(b->team)) return ves_team_meet(b->team, VES_OK);
     for (size_t k = 0; k < runs; k++) b->shown.outcome[k].done = done[k];
     b->shown.folder = ves_arena_text(&b->arena, path, strlen(path));
     ves_status status = b->shown.folder ? VES_OK : ves_diag_fail(b->diag, VES_MEMORY);
     if (status == VES_OK) status = ves_bench_files_join(&b->files, b->shown.folder, b->team->rank, b->diag);
-    return agree(b->team, status);
+    return ves_team_meet(b->team, status);
 }
 
 /* --- one run --- */
@@ -297,12 +268,12 @@ static ves_status all_run(bench *b)
         if (status == VES_MEMORY) ves_diag_fail(b->diag, status);
     }
     ves_pool_destroy(b->pool);
-    status = agree(b->team, status);
-    if (b->team && leads(b)) {
+    status = ves_team_meet(b->team, status);
+    if (b->team && ves_team_leads(b->team)) {
         ves_status gathered = gather(b);
         if (status == VES_OK) status = gathered;
     }
-    if (!leads(b)) return status;
+    if (!ves_team_leads(b->team)) return status;
     if (status == VES_OK || status == VES_INTERRUPTED) {
         ves_status counted = count_up(b);
         if (counted != VES_OK) status = counted;
@@ -323,7 +294,7 @@ static bench *bench_create(ves_suite *suite, const ves_bench_options *options, c
     b->team = options->team;
     b->diag = diag;
     b->shown.suite = suite;
-    b->shown.jobs = jobs_of(options);
+    b->shown.jobs = ves_team_jobs(options->team, options->jobs);
     b->shown.runs = ves_suite_runs(suite);
     b->shown.outcome = ves_arena_take(&b->arena, (size_t)b->shown.runs, sizeof *b->shown.outcome);
     if (b->shown.outcome) return b;
@@ -336,12 +307,12 @@ static bench *bench_create(ves_suite *suite, const ves_bench_options *options, c
 static ves_status finish(bench *b, ves_status status, ves_bench **out)
 {
     double begin = ves_study_clock();
-    status = agree(b->team, status);
+    status = ves_team_meet(b->team, status);
     if (status == VES_OK) status = join(b);
     if (status == VES_OK) status = all_run(b);
     b->shown.wall = ves_study_clock() - begin;
     ves_status closed = VES_OK;
-    if (leads(b) && b->files.folder && b->shown.tally.score)
+    if (ves_team_leads(b->team) && b->files.folder && b->shown.tally.score)
         closed = ves_bench_report_write(&b->shown, b->diag);
     for (int k = 0; b->ring && k < b->shown.suite->bouts; k++) ves_ring_close(&b->ring[k]);
     ves_status ended = ves_bench_files_end(&b->files, b->shown.suite, b->shown.outcome);
@@ -374,7 +345,7 @@ ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, con
     if (status == VES_OK && b->team && options->no_files)
         status = ves_diag_add(diag, VES_ERROR, VES_USAGE, (ves_mark){0},
                               "under mpirun a benchmark is gathered in its folder: not with --no-files");
-    if (!leads(b)) return finish(b, status, out);
+    if (!ves_team_leads(b->team)) return finish(b, status, out);
     if (status == VES_OK && !options->no_files)
         status = options->out ? ves_folder_make(options->out, &b->arena, &folder, diag)
                               : ves_folder_number("runs", suite->name, &b->arena, &folder, diag);
@@ -447,14 +418,14 @@ ves_status ves_bench_resume(const char *folder, const ves_read_options *added,
 {
     ves_suite *suite = NULL;
     *out = NULL;
-    ves_status status = agree(options->team, reopen(folder, added, &suite, diag));
+    ves_status status = ves_team_meet(options->team, reopen(folder, added, &suite, diag));
     if (status != VES_OK) ves_suite_destroy(suite);
     VES_TRY(status); /* all have read what the first may write */
     bench *b = bench_create(suite, options, hooks, diag);
     if (!b) return VES_MEMORY;
     b->shown.folder = ves_arena_text(&b->arena, folder, strlen(folder));
     if (!b->shown.folder) status = ves_diag_fail(diag, VES_MEMORY);
-    if (!leads(b)) return finish(b, status == VES_OK ? rings_open(b) : status, out);
+    if (!ves_team_leads(b->team)) return finish(b, status == VES_OK ? rings_open(b) : status, out);
     if (status == VES_OK) status = ves_bench_files_take(&b->files, b->shown.folder, &b->arena, diag);
     if (status == VES_OK) status = rings_open(b);
     if (status == VES_OK) status = ves_bench_files_again(&b->files, suite, b->shown.outcome);

@@ -5,6 +5,7 @@
 #include "study/journal.h"
 #include "study/lock.h"
 #include "study/run.h"
+#include "study/team.h"
 #include "study/trace.h"
 
 enum { VES_FAILURES = 64, VES_SENTENCE = 200 };
@@ -56,10 +57,6 @@ void ves_study_plans_destroy(ves_plan **plan, int count);
 ves_status ves_study_search(ves_study *study, const ves_search_options *options, const double *const *from,
                             int count);
 bool ves_study_stopped(ves_study *study); /* on all ranks alike */
-
-/* What rank 0 met. */
-ves_status ves_study_agree(ves_study *study, ves_status status);
-bool ves_study_leads(const ves_study *study); /* is this rank 0, or the only one */
 
 /* A warning when the journal cannot be written any more. */
 void ves_study_journal_tell(ves_study *study);

@@ -12,8 +12,6 @@
 #include "study/saved.h"
 #include "study/settle.h"
 
-enum { JOBS_MOST = 256 };
-
 ves_status ves_study_note(ves_study *s, const char *text)
 {
     ves_run *run = s->run;
@@ -52,12 +50,6 @@ double ves_study_thread_clock(void)
 
 /* --- making ready --- */
 
-static int machine_threads(void)
-{
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count > JOBS_MOST ? JOBS_MOST : (int)count;
-}
-
 static bool searches(const ves_study *s)
 {
     const ves_problem *p = s->problem;
@@ -78,9 +70,8 @@ static void set_up(ves_study *s)
     run->problem = s->problem;
     run->searched = searches(s);
     run->seed = s->search.seed;
-    run->jobs = !run->searched ? 1 : o->jobs > 0 ? o->jobs : o->team ? 1 : machine_threads();
-    if (run->jobs > JOBS_MOST) run->jobs = JOBS_MOST;
-    run->times.threads = machine_threads();
+    run->jobs = !run->searched ? 1 : ves_team_jobs(o->team, o->jobs);
+    run->times.threads = ves_machine_threads();
     run->stop = s->problem->variables ? "nothing to optimize" : "nothing to vary";
     run->change = run->finer_change = NAN;
     run->passed = true;
@@ -209,7 +200,7 @@ static ves_status tracer_begin(ves_study *s)
 
 static ves_status folder_begin(ves_study *s)
 {
-    if (!s->options->files || s->run->over || !ves_study_leads(s)) return VES_OK;
+    if (!s->options->files || s->run->over || !ves_team_leads(s->options->team)) return VES_OK;
     if (!s->options->resume) {
         VES_TRY(folder_make(s));
         VES_TRY(folder_fill(s));
@@ -228,7 +219,7 @@ static bool is_over(const ves_study *s)
 static ves_status folder_resume(ves_study *s)
 {
     ves_run *run = s->run;
-    if (!s->options->resume || !ves_study_leads(s)) return VES_OK;
+    if (!s->options->resume || !ves_team_leads(s->options->team)) return VES_OK;
     run->folder = ves_arena_text(s->arena, s->options->out, strlen(s->options->out));
     const ves_journal_head head = head_of(s);
     if (!run->folder || !head.text) return ves_diag_fail(s->diag, VES_MEMORY);
@@ -250,8 +241,8 @@ static ves_status folder_resume(ves_study *s)
 /* Rank 0 alone reads the folder; the others learn whether there is something to recall. */
 static ves_status journal_agree(ves_study *s)
 {
-    VES_TRY(ves_study_agree(s, folder_resume(s)));
-    ves_status none = ves_study_agree(s, s->recalls ? VES_OK : VES_ABSENT);
+    VES_TRY(ves_team_follow(s->options->team, folder_resume(s)));
+    ves_status none = ves_team_follow(s->options->team, s->recalls ? VES_OK : VES_ABSENT);
     s->recalls = none == VES_OK;
     return none == VES_OK || none == VES_ABSENT ? VES_OK : none;
 }
@@ -332,7 +323,8 @@ static ves_status work(ves_study *s)
     VES_TRY(plans_make(s));
     VES_TRY(start_measure(s));
     if (run->searched || s->options->prove) VES_TRY(idle_find(s));
-    VES_TRY(ves_study_agree(s, folder_begin(s))); /* told before the search has cost anything */
+    VES_TRY(
+        ves_team_follow(s->options->team, folder_begin(s))); /* told before the search has cost anything */
     if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);
     VES_TRY(run->searched ? search(s) : once(s));
     run->finer_change = ves_plan_change(s->plan[0], &run->best, &run->finer);

@@ -71,7 +71,8 @@ static bool hear_stopped(void *data)
 
 bool ves_study_stopped(ves_study *study)
 {
-    return ves_study_agree(study, hear_stopped(study) ? VES_INTERRUPTED : VES_OK) == VES_INTERRUPTED;
+    return ves_team_follow(study->options->team, hear_stopped(study) ? VES_INTERRUPTED : VES_OK) ==
+           VES_INTERRUPTED;
 }
 
 /* Variables that do nothing go back to their start. */
@@ -210,19 +211,6 @@ static void hear_block(void *data, const void *block, size_t size, bool whole)
 
 /* --- ranks --- */
 
-bool ves_study_leads(const ves_study *s)
-{
-    return !s->options->team || s->options->team->rank == 0;
-}
-
-ves_status ves_study_agree(ves_study *s, ves_status status)
-{
-    const ves_team *team = s->options->team;
-    int32_t said = (int32_t)status;
-    if (team) VES_TRY(team->tell(team->data, &said, sizeof said));
-    return (ves_status)said;
-}
-
 static ves_status exchange(void *data, const void *mine, size_t size, const void **all, size_t *total)
 {
     const ves_team *team = ((ves_study *)data)->options->team;
@@ -238,13 +226,13 @@ static bool tell_all(ves_study *s, const void **block, size_t *size, bool *whole
         uint32_t any, whole;
     } head = {*size, *block != NULL, *whole};
     if (team->tell(team->data, &head, sizeof head) != VES_OK || !head.any) return false;
-    if (!ves_study_leads(s) && head.size > s->told_room) {
+    if (!ves_team_leads(s->options->team) && head.size > s->told_room) {
         unsigned char *room = ves_memory_grow(s->told_block, head.size);
         if (!room) return false; /* the others go on, and notice that this rank runs another round */
         s->told_block = room;
         s->told_room = head.size;
     }
-    void *bytes = ves_study_leads(s) ? (void *)*block : s->told_block;
+    void *bytes = ves_team_leads(s->options->team) ? (void *)*block : s->told_block;
     *block = bytes, *size = head.size, *whole = head.whole;
     return team->tell(team->data, bytes, head.size) == VES_OK;
 }
@@ -253,7 +241,7 @@ static bool tell_block(void *data, const void **block, size_t *size, bool *whole
 {
     ves_study *s = data;
     *block = NULL, *size = 0, *whole = false;
-    bool any = ves_study_leads(s) && ves_journal_recall(&s->journal, block, size, whole);
+    bool any = ves_team_leads(s->options->team) && ves_journal_recall(&s->journal, block, size, whole);
     if (!s->options->team) return any;
     if (!any) *block = NULL;
     return tell_all(s, block, size, whole);

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "base/diag.h"
 #include "base/pool.h"
@@ -14,8 +13,9 @@
 #include "study/sweep_folder.h"
 #include "study/sweep_point.h"
 #include "study/sweep_report.h"
+#include "study/team.h"
 
-enum { JOBS_MOST = 256, NAME = 200, POINTS_MOST = 1000000 };
+enum { NAME = 200, POINTS_MOST = 1000000 };
 
 /* What ves_sweep_run makes: first what the caller holds. */
 typedef struct whole {
@@ -222,44 +222,16 @@ static ves_status walk_all(whole *w)
 
 /* --- ranks --- */
 
-static bool leads(const whole *w)
-{
-    return !w->options->team || w->options->team->rank == 0;
-}
-
-/* What rank 0 met. */
-static ves_status agree(const whole *w, ves_status status)
-{
-    const ves_team *team = w->options->team;
-    int32_t said = (int32_t)status;
-    if (team) VES_TRY(team->tell(team->data, &said, sizeof said));
-    return (ves_status)said;
-}
-
 /* The folder that rank 0 has made. */
 static ves_status folder_tell(whole *w)
 {
     const ves_team *team = w->options->team;
     char path[PATH_MAX] = "";
     if (!team) return VES_OK;
-    if (leads(w)) snprintf(path, sizeof path, "%s", w->shown.folder);
+    if (ves_team_leads(w->options->team)) snprintf(path, sizeof path, "%s", w->shown.folder);
     VES_TRY(team->tell(team->data, path, sizeof path));
     w->shown.folder = ves_arena_text(&w->arena, path, strlen(path));
     return w->shown.folder ? VES_OK : ves_diag_fail(w->diag, VES_MEMORY);
-}
-
-/* Waits for all; the first failure of any rank is that of every one. */
-static ves_status meet(const whole *w, ves_status status)
-{
-    const ves_team *team = w->options->team;
-    const int64_t mine = status, *each;
-    const void *all = &mine;
-    size_t size = sizeof mine;
-    if (team) VES_TRY(team->exchange(team->data, &mine, sizeof mine, &all, &size));
-    each = all;
-    for (size_t k = 0; k < size / sizeof mine; k++)
-        if (each[k] != VES_OK) return (ves_status)each[k];
-    return VES_OK;
 }
 
 /* --- the folder --- */
@@ -268,7 +240,7 @@ static ves_status folder_take(whole *w)
 {
     const ves_sweep_options *o = w->options;
     char *folder = NULL, *name = ves_arena_format(&w->arena, "%s-sweep", w->shown.problem->name);
-    if (!leads(w)) return VES_OK;
+    if (!ves_team_leads(w->options->team)) return VES_OK;
     if (!name) return ves_diag_fail(w->diag, VES_MEMORY);
     if (o->resume)
         folder = ves_arena_text(&w->arena, o->out, strlen(o->out));
@@ -308,7 +280,7 @@ static ves_status prepare(whole *w)
     VES_TRY(walks_make(w));
     VES_TRY(room_make(w));
     for (int k = 0; k < s->def->branches; k++) VES_TRY(ves_sweep_branch_check(&w->task, k, w->diag));
-    VES_TRY(agree(w, folder_take(w)));
+    VES_TRY(ves_team_follow(w->options->team, folder_take(w)));
     VES_TRY(folder_tell(w));
     return VES_OK;
 }
@@ -316,7 +288,8 @@ static ves_status prepare(whole *w)
 /* The other ranks, which have no lock of the folder, say that they are there. */
 static ves_status help(whole *w)
 {
-    return leads(w) ? VES_OK : ves_lock_help(&w->lock, w->shown.folder, &w->arena, w->diag);
+    return ves_team_leads(w->options->team) ? VES_OK
+                                            : ves_lock_help(&w->lock, w->shown.folder, &w->arena, w->diag);
 }
 
 static ves_status walk(whole *w)
@@ -332,8 +305,8 @@ static ves_status work(whole *w)
 {
     double begin = ves_study_clock();
     VES_TRY(prepare(w));
-    ves_status status = meet(w, walk(w));
-    if (!leads(w)) return status;
+    ves_status status = ves_team_meet(w->options->team, walk(w));
+    if (!ves_team_leads(w->options->team)) return status;
     if (w->status == VES_OK && status != VES_OK && status != VES_INTERRUPTED)
         ves_diag_add(w->diag, VES_ERROR, status, (ves_mark){0}, "another process failed: %s",
                      ves_status_text(status));
@@ -347,12 +320,6 @@ static ves_status work(whole *w)
         if (read != VES_OK) status = read;
     }
     return status;
-}
-
-static int jobs_of(const ves_sweep_options *o)
-{
-    long count = o->jobs > 0 ? o->jobs : o->team ? 1 : sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count > JOBS_MOST ? JOBS_MOST : (int)count;
 }
 
 static ves_status options_check(const ves_problem *problem, const ves_sweep_options *o, ves_diag *diag)
@@ -376,7 +343,7 @@ ves_status ves_sweep_run(const ves_problem *problem, const ves_sweep_options *op
     if (!w) return ves_diag_fail(diag, VES_MEMORY);
     w->shown.problem = problem;
     w->shown.def = problem->sweep;
-    w->shown.jobs = jobs_of(options);
+    w->shown.jobs = ves_team_jobs(options->team, options->jobs);
     w->options = options;
     w->hooks = hooks;
     w->diag = diag;
