@@ -218,6 +218,7 @@ Test(api, a_design_has_the_sign_and_the_names_of_the_file)
     cr_expect(ves_plan_change(plan, &design, &other) == 0.2 && ves_plan_change(plan, &other, &other) == 0);
     other.status = VES_FOLDED;
     cr_expect(isnan(ves_plan_change(plan, &design, &other)));
+    cr_expect(ves_plan_measure_size(plan, 0) > 0 && ves_plan_measure_size(plan, -1) == 0);
     ves_plan_destroy(plan);
     ves_problem_destroy(problem);
     problem = read_text(SOLVED, NULL);

@@ -268,6 +268,14 @@ Test(cli_sweep, lost_points)
                "vesica: 1\nparameters: {A: 3*pi, R: 1}\n" CAN "places: {p: {patch: wall, u: 0.1*R, v: 0}}\n"
                "sweep: {over: {R: [5, 11, 12]}}\n");
     expect(vesica(NULL, "sweep gap.yaml --out gap"), 1, "\"u\" must be in [0, 1]", NULL, "gap");
+    cr_expect(count_of("gap/points.jsonl", "\"status\":\"lost\"") == 2);
+    /* reasons that differ by more than their numbers have rows of their own */
+    write_file("two.yaml", "vesica: 1\nparameters: {A: 3*pi}\n" CAN
+                           "places: {p: {patch: wall, u: A/40, v: 0}}\nsweep: {over: {A: [20, 36, 44]}}\n");
+    o = vesica(NULL, "sweep two.yaml --out two");
+    cr_expect(strstr(o.out, "lost       at A = 36: infeasible") && strstr(o.out, "lost       at A = 44: "),
+              "%s", o.out);
+    done(&o);
     root_remove();
 }
 
@@ -375,6 +383,14 @@ Test(cli_sweep, what_cannot_go_on_says_what_to_do)
                "vesica: 1\nparameters: {A: 3*pi}\n" CAN
                "sweep: {over: {A: [8, 9]}, branches: {x: {set: {minimize: bending, maximize: volume}}}}\n");
     expect(vesica(NULL, "sweep set.yaml"), 2, NULL, "", "branch");
+    write_file("set.yaml",
+               "vesica: 1\nparameters: {A: 3*pi}\n" CAN
+               "sweep: {over: {A: [8, 9]}, branches: {x: {}, y: {set: {maximize: 2*volume}}}}\n");
+    expect(vesica(NULL, "sweep set.yaml"), 2, NULL,
+           "set.yaml:16:46: error: what is set here changes what is minimized or maximized", "other goal");
+    write_file("set.yaml", "vesica: 1\nparameters: {A: 3*pi}\n" CAN
+                           "sweep: {over: {A: [8, 9]}, branches: {x: {set: {constraints.0: area <= A}}}}\n");
+    expect(vesica(NULL, "sweep set.yaml"), 2, NULL, "what is set here changes the constraints", "constraint");
     root_remove();
 }
 

@@ -98,6 +98,9 @@ ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_desi
  * the objective what its measures would make of it if they did not cancel. */
 double ves_plan_change(ves_plan *plan, const ves_design *a, const ves_design *b);
 
+/* That natural size of a measure, in its SI unit; 0: not known. */
+double ves_plan_measure_size(const ves_plan *plan, int measure);
+
 /* After a positive answer `status`: a warning "what: ..." that says why, with the place when diag is the one
  * that the problem was read with: which number has left the range of its key (VES_OUTSIDE), which measure or
  * formula has no value (VES_NO_NUMBER), where which patch has no point (VES_NO_POINT), which coefficients are

@@ -22,9 +22,9 @@ const app_command app_commands[] = {
      "What is swept over stands under `sweep` in the file (vesica explain sweep), or in --over; "
      "docs/sweep.md tells "
      "what is\n"
-     "written. Exit code: 0 when every value has a feasible best, 1 when one has none; 130 when interrupted: "
-     "--resume\n"
-     "goes on, as after a kill, and ends with the same bytes."},
+     "written. Exit code: 0 when every value has a good point (feasible, checked, converged), 1 when one has "
+     "none; 130\n"
+     "when interrupted: --resume goes on, as after a kill, and ends with the same bytes."},
     {"check", "check FILE", "read a problem file, measure its start design, say what a run will do", 1, 1,
      PROBLEM, app_check,
      "Exit code: 0 when the file is in order and its start design can be measured and passes its checks; 1 "

@@ -103,14 +103,31 @@ static bool is_lost(const ves_sweep *s, int walk, int place)
     return point->done && !point->good;
 }
 
-/* Each row of lost neighbours, with the reason of the first that the walk lost. */
+/* Are two reasons one but for the numbers in them? */
+static bool alike(const char *a, const char *b)
+{
+    static const char digits[] = "0123456789.e+-";
+    for (;; a++, b++) {
+        a += strspn(a, digits), b += strspn(b, digits);
+        if (*a != *b) return false;
+        if (!*a) return true;
+    }
+}
+
+static bool lost_alike(const ves_sweep *s, int walk, int first, int place)
+{
+    return is_lost(s, walk, place) && alike(s->point[ves_sweep_point_at(s, walk, first)].reason,
+                                            s->point[ves_sweep_point_at(s, walk, place)].reason);
+}
+
+/* Each row of neighbours that are lost for one reason, as the first that the walk lost has it. */
 static void lost(const ves_sweep *s, int walk, FILE *out)
 {
     const char *name = s->walk[walk].name;
     for (int first = 0, last; first < s->count; first = last + 1) {
         last = first;
         if (!is_lost(s, walk, first)) continue;
-        while (last + 1 < s->count && is_lost(s, walk, last + 1)) last++;
+        while (last + 1 < s->count && lost_alike(s, walk, first, last + 1)) last++;
         int index = ves_sweep_point_at(s, walk, s->walk[walk].back ? last : first);
         fprintf(out, "  lost       %s%sat ", name, *name ? ", " : "");
         places_print(s, first, last, out);
@@ -155,11 +172,12 @@ static void changes(const ves_sweep *s, int second, FILE *out)
 {
     const double factor = s->problem->parameter[s->def->axis[0].parameter].shown.factor;
     ves_sweep_change c;
-    for (int place = 0; ves_sweep_change_find(s, second, place, &c); place = c.place + 1) {
+    for (int place = 0; ves_sweep_change_find(s, second, place, &c); place = c.next) {
         char number[32];
         fprintf(out, "  changes    the best goes from %s to %s between ", s->walk[c.from].name,
                 s->walk[c.to].name);
-        places_print(s, c.place, c.place + 1, out);
+        places_print(s, c.place, c.next, out);
+        if (c.next > c.place + 1) fputs(", all lost between", out);
         if (isfinite(c.at))
             fprintf(out, ", their lines cross at %s", app_screen_number(c.at / factor, number));
         fputc('\n', out);

@@ -44,6 +44,11 @@ ves_status ves_plan_sizes(ves_plan *plan)
     return VES_OK;
 }
 
+double ves_plan_measure_size(const ves_plan *plan, int measure)
+{
+    return plan && measure >= 0 && measure < plan->problem->measures ? plan->natural[measure] : 0;
+}
+
 static double relative(double a, double b, double natural)
 {
     double size = fmax(fabs(a), fabs(b));

@@ -206,6 +206,7 @@ typedef struct ves_sweep_axis {
 
 typedef struct ves_sweep_branch {
     const char *name;
+    ves_mark mark; /* of what it sets */
     int sets;
     const ves_override *set;
 } ves_sweep_branch;

@@ -221,7 +221,7 @@ static bool swept(const ves_sweep_def *sweep, const char *name)
 static void branch_read(axes *a, const ves_named *named, ves_sweep_branch *branch)
 {
     ves_fields f;
-    *branch = (ves_sweep_branch){.name = named->text};
+    *branch = (ves_sweep_branch){.name = named->text, .mark = ves_reader_mark(a->reader, named->word)};
     if (!ves_fields_read(a->reader, named->value, table_of("branches")->table, "branch", &f)) return;
     const ves_node *set = ves_fields_find(&f, "set");
     if (!set) return;

@@ -161,8 +161,8 @@ static double freezing_of(const ves_annealing *a, int leg, double *fall)
     return c;
 }
 
-/* Of the lines between two temperatures, of all legs. Where a chain falls into another basin for good its variance tells
- * how deep that lies: so no line counts for more than some times the median. */
+/* Of the lines between two temperatures, of all legs. Where a chain falls into another basin for good its variance
+ * tells how deep that lies: so no line counts for more than some times the median. */
 static double capacity(const ves_annealing *a, double low, double high, double *scratch)
 {
     const ves_session *session = a->session;

@@ -7,8 +7,9 @@
 #include "base/diag.h"
 #include "output/chart.h"
 
-/* The best is a stair with a step for each improvement. Of the accepted candidates there may be millions: each `stride`-th is
- * kept, and every second of these thrown away when the room is full. The axis shows most of them, not the worst. */
+/* The best is a stair with a step for each improvement. Of the accepted candidates there may be millions: each
+ * `stride`-th is kept, and every second of these thrown away when the room is full. The axis shows most of them, not
+ * the worst. */
 
 enum { STEPS = 4096, SPECKS = 4000 };
 
@@ -60,7 +61,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* From the best to what most candidates lie below, the first best at least. */
+/* From the best to what most candidates lie below, and to half of the steps of the stair at least. */
 static ves_chart_axis axis_of(convergence *c, bool maximize)
 {
     double best = c->y[c->steps - 1], worst = c->y[c->steps > 1 ? c->steps / 2 : 0];

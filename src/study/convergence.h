@@ -1,5 +1,5 @@
-/* Convergence: how a run came to its best, as a chart of its journal: the best feasible value over the evaluations, and the
- * values of feasible candidates that were accepted. */
+/* Convergence: how a run came to its best, as a chart of its journal: the best feasible value over the evaluations,
+ * and the values of feasible candidates that were accepted. */
 #ifndef VES_STUDY_CONVERGENCE_H
 #define VES_STUDY_CONVERGENCE_H
 

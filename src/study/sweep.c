@@ -307,7 +307,7 @@ static ves_status work(whole *w)
     VES_TRY(prepare(w));
     ves_status status = ves_team_meet(w->options->team, walk(w));
     if (!ves_team_leads(w->options->team)) return status;
-    if (w->status == VES_OK && status != VES_OK && status != VES_INTERRUPTED)
+    if (w->options->team && w->status == VES_OK && status != VES_OK && status != VES_INTERRUPTED)
         ves_diag_add(w->diag, VES_ERROR, status, (ves_mark){0}, "another process failed: %s",
                      ves_status_text(status));
     if (status == VES_OK || status == VES_INTERRUPTED) {

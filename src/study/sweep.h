@@ -2,7 +2,8 @@
  *
  * A walk belongs to a branch, a value of the second parameter and a direction. Its first point is searched as the file
  * says, or, so that it stays on its branch, as `first` of the sweep does; each further one from the best of the last
- * good point before it, bit for bit. Walks know nothing of each other, so that threads and ranks share them out and the result does not depend on how many.
+ * good point before it, bit for bit. Walks know nothing of each other, so that threads and ranks share them out and the
+ * result does not depend on how many.
  *
  *     problem.yaml         the file as asked         sweep.json   how it was asked, which vesica walked
  *     walks/NNNN.jsonl     the points of a walk, each as soon as it is done: all that going on needs
@@ -43,6 +44,7 @@ typedef struct ves_sweep_point {
     const char *reason; /* why not; NULL: good */
     bool feasible;      /* it meets the constraints, proved or not */
     double *column;     /* [first[VES_SWEEP_GROUPS]] SI, of the best there was; NAN: not known */
+    double slope;       /* what is left of it there (ves_kkt.slope), of the objective, SI; NAN: not known */
     long evaluations, gradients;
     double wall; /* s */
     int notes;

@@ -3,10 +3,14 @@
 #include <string.h>
 
 #include "study/sweep_report.h"
+#include "vesica/plan.h"
 
-/* Ends are one when their objectives agree to this part of them, and their variables to a thousandth of the ranges, as a
- * search tells optima apart, or all their measures to a thousandth: variables may be such that nothing feels them. */
-static const double SAME = 1e-6, NEAR = 1e-3, NOISE = 1e-9;
+/* Ends are one when their objectives agree, and their variables to a thousandth of the ranges, as a search tells optima
+ * apart, or all their measures to a thousandth of the largest that the sweep has: variables may be such that nothing
+ * feels them. A measure that is never more than a millionth of its natural size tells nothing.
+ * Objectives agree to a millionth, or to what the slopes that were left may still make of it: f is convex near one
+ * optimum, so that f(a) - f(b) <= grad f(a) (a - b). */
+static const double SAME = 1e-6, NEAR = 1e-3;
 
 static double objective(const ves_sweep *s, int index)
 {
@@ -22,29 +26,40 @@ static double size_of(const ves_sweep *s, int column)
     return most;
 }
 
-static bool agree(double a, double b, double part, double size)
-{
-    return !(fabs(a - b) > part * fmax(fabs(a), fabs(b)) + NOISE / SAME * part * size);
-}
+/* How far apart two points are in the box of the variables: the largest of all, and the distance. */
+typedef struct gap {
+    double most, distance;
+} gap;
 
-static bool same_variables(const ves_sweep *s, const double *a, const double *b)
+static gap gap_of(const ves_sweep *s, const double *a, const double *b)
 {
     const ves_problem *p = s->problem;
-    double apart = 0;
-    for (int k = 0; k < p->variables; k++)
-        apart = fmax(apart, fabs(a[s->first[VES_SWEEP_VARIABLE] + k] - b[s->first[VES_SWEEP_VARIABLE] + k]) /
-                                (p->variable[k].max - p->variable[k].min));
-    return apart <= NEAR;
+    gap g = {0};
+    for (int k = s->first[VES_SWEEP_VARIABLE], i = 0; i < p->variables; i++, k++) {
+        double apart = fabs(a[k] - b[k]) / (p->variable[i].max - p->variable[i].min);
+        g.most = fmax(g.most, apart);
+        g.distance = hypot(g.distance, apart);
+    }
+    return g;
+}
+
+static double slope_of(const ves_sweep *s, int index)
+{
+    double slope = s->point[index].slope;
+    return isfinite(slope) ? slope : 0;
 }
 
 static bool same(const ves_sweep *s, const double *size, int i, int j)
 {
     const double *a = s->point[i].column, *b = s->point[j].column;
+    const double f = objective(s, i), g = objective(s, j);
     const int first = s->first[VES_SWEEP_MEASURE];
-    if (!agree(objective(s, i), objective(s, j), SAME, size[0])) return false;
-    if (same_variables(s, a, b)) return true;
+    const gap apart = gap_of(s, a, b);
+    double within = SAME * fmax(fmax(fabs(f), fabs(g)), NEAR * size[0]);
+    if (fabs(f - g) > within + (slope_of(s, i) + slope_of(s, j)) * apart.distance) return false;
+    if (apart.most <= NEAR) return true;
     for (int k = 0; k < s->problem->measures; k++)
-        if (!agree(a[first + k], b[first + k], NEAR, size[1 + k])) return false;
+        if (fabs(a[first + k] - b[first + k]) > NEAR * size[1 + k]) return false;
     return s->problem->measures > 0;
 }
 
@@ -83,6 +98,21 @@ static void rank(ves_sweep *s, const double *size, const int *list, int count)
     if (best >= 0) s->point[best].best = true;
 }
 
+/* 1 + measures: of the objective, and of what differences of measures count by. */
+static ves_status sizes(const ves_sweep *s, double *size)
+{
+    const ves_problem *p = s->problem;
+    const ves_plan_options grid = {{VES_NODES_LEAST, VES_NODES_LEAST}};
+    ves_plan *plan = NULL;
+    if (ves_plan_create(p, &grid, &plan, NULL) == VES_MEMORY) return VES_MEMORY;
+    size[0] = size_of(s, s->first[VES_SWEEP_OBJECTIVE]);
+    for (int k = 0; k < p->measures; k++)
+        size[1 + k] =
+            fmax(size_of(s, s->first[VES_SWEEP_MEASURE] + k), SAME * ves_plan_measure_size(plan, k));
+    ves_plan_destroy(plan);
+    return VES_OK;
+}
+
 ves_status ves_sweep_compare(ves_sweep *s)
 {
     ves_arena arena = {0};
@@ -90,10 +120,8 @@ ves_status ves_sweep_compare(ves_sweep *s)
     int *list = ves_arena_take(&arena, (size_t)s->walks, sizeof *list);
     double *size = ves_arena_take(&arena, (size_t)s->problem->measures + 1, sizeof *size);
     ves_status status = list && size ? VES_OK : VES_MEMORY;
+    if (status == VES_OK) status = sizes(s, size);
     if (status == VES_OK) {
-        size[0] = size_of(s, s->first[VES_SWEEP_OBJECTIVE]);
-        for (int k = 0; k < s->problem->measures; k++)
-            size[1 + k] = size_of(s, s->first[VES_SWEEP_MEASURE] + k);
         for (int k = 0; k < s->walks * s->count; k++) s->point[k].optimum = 0, s->point[k].best = false;
         for (int j = 0; j < seconds; j++)
             for (int i = 0; i < s->count; i++) rank(s, size, list, gather(s, j, i, list));
@@ -134,20 +162,23 @@ static double objective_at(const ves_sweep *s, int walk, int place)
 
 static double crossing(const ves_sweep *s, const ves_sweep_change *c)
 {
-    const double *value = s->def->axis[0].value + c->place;
+    const double *value = s->def->axis[0].value;
     double before = objective_at(s, c->to, c->place) - objective_at(s, c->from, c->place);
-    double behind = objective_at(s, c->to, c->place + 1) - objective_at(s, c->from, c->place + 1);
+    double behind = objective_at(s, c->to, c->next) - objective_at(s, c->from, c->next);
     double part = round(before / (before - behind) * 1e6) / 1e6; /* lines know no more */
-    return value[0] * (1 - part) + value[1] * part;
+    return value[c->place] * (1 - part) + value[c->next] * part;
 }
 
 bool ves_sweep_change_find(const ves_sweep *s, int second, int place, ves_sweep_change *change)
 {
-    for (; place + 1 < s->count; place++) {
+    for (int next; place < s->count; place = next) {
+        for (next = place + 1; next < s->count && best_walk(s, second, next, -1) < 0;) next++;
+        if (next == s->count) return false;
         *change = (ves_sweep_change){.place = place,
+                                     .next = next,
                                      .from = best_walk(s, second, place, -1),
-                                     .to = best_walk(s, second, place + 1, -1)};
-        if (change->from < 0 || change->to < 0 || best_walk(s, second, place, place + 1) >= 0) continue;
+                                     .to = best_walk(s, second, next, -1)};
+        if (change->from < 0 || best_walk(s, second, place, next) >= 0) continue;
         change->at = crossing(s, change);
         return true;
     }

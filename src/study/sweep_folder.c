@@ -122,6 +122,7 @@ void ves_sweep_point_json(const ves_sweep *sweep, int index, bool compared, bool
     ves_json_number(json, "objective", point->column[sweep->first[VES_SWEEP_OBJECTIVE]]);
     ves_json_flag(json, "feasible", point->feasible);
     ves_json_number(json, "violation", point->column[sweep->first[VES_SWEEP_VIOLATION]]);
+    ves_json_number(json, "slope", point->slope);
     numbers_json(sweep, point, json);
     ves_json_integer(json, "evaluations", point->evaluations);
     ves_json_integer(json, "gradients", point->gradients);
@@ -230,6 +231,7 @@ static bool point_read(const ves_sweep *sweep, const ves_node *line, int index, 
     point->column = ves_arena_take(arena, (size_t)sweep->first[VES_SWEEP_GROUPS], sizeof *point->column);
     if (!point->column || !notes_read(ves_node_find(line, "notes"), point, arena)) return false;
     columns_read(sweep, line, point->column);
+    point->slope = ves_json_double(line, "slope", NAN);
     point->evaluations = (long)ves_json_double(line, "evaluations", 0);
     point->gradients = (long)ves_json_double(line, "gradients", 0);
     point->wall = ves_json_double(line, "wall_s", NAN);

@@ -26,8 +26,8 @@ ves_status ves_sweep_about_open(const char *folder, const ves_sweep_about *about
 /* Appends point `index` to the file of its walk. */
 ves_status ves_sweep_line_write(const ves_sweep *sweep, int index, ves_arena *arena, ves_diag *diag);
 
-/* The points of a walk that are done, kept in the arena; what follows the last whole line is cut off if `cut`. Returns
- * how many there are in *count. */
+/* The points of a walk that are done, kept in the arena; what follows the last whole line is cut off if `cut`. *count:
+ * how many there are. */
 ves_status ves_sweep_lines_read(const ves_sweep *sweep, int walk, bool cut, ves_arena *arena, int *count,
                                 ves_diag *diag);
 

@@ -60,22 +60,51 @@ static int settings_most(const ves_sweep *sweep, int branch)
     return (def->branches ? def->branch[branch].sets : 0) + VES_SWEEP_AXES + sweep->problem->variables;
 }
 
-/* Every point is told in the same columns. */
-static bool fits(const ves_problem *a, const ves_problem *b)
+static bool same_variables(const ves_problem *a, const ves_problem *b)
 {
-    bool same = a->variables == b->variables && a->unknowns == b->unknowns && a->measures == b->measures &&
-                a->constraints == b->constraints && !a->objective == !b->objective &&
-                a->maximize == b->maximize;
-    for (int k = 0; same && k < a->slots && k < a->variables + a->unknowns; k++)
+    bool same = a->variables == b->variables && a->unknowns == b->unknowns;
+    for (int k = 0; same && k < a->variables + a->unknowns; k++)
         same = !strcmp(ves_problem_slot(a, k), ves_problem_slot(b, k));
-    for (int k = 0; same && k < a->measures; k++) same = !strcmp(a->measure[k].name, b->measure[k].name);
-    for (int k = 0; same && k < a->constraints; k++)
-        same = a->constraint[k].relation == b->constraint[k].relation;
     return same;
 }
 
-static ves_status read(const ves_sweep_task *task, const ves_override *set, int count, ves_problem **problem,
-                       ves_diag *diag)
+static bool same_measures(const ves_problem *a, const ves_problem *b)
+{
+    bool same = a->measures == b->measures;
+    for (int k = 0; same && k < a->measures; k++)
+        same =
+            a->measure[k].measure == b->measure[k].measure && !strcmp(a->measure[k].name, b->measure[k].name);
+    return same;
+}
+
+static bool same_goal(const ves_problem *a, const ves_problem *b)
+{
+    return !a->objective == !b->objective && a->maximize == b->maximize &&
+           (!a->objective || !strcmp(a->objective_text, b->objective_text));
+}
+
+static bool same_constraints(const ves_problem *a, const ves_problem *b)
+{
+    bool same = a->constraints == b->constraints;
+    for (int k = 0; same && k < a->constraints; k++)
+        same = !strcmp(a->constraint[k].text, b->constraint[k].text) &&
+               a->constraint[k].within == b->constraint[k].within;
+    return same;
+}
+
+/* Points are told in the same columns and ranked by the same measure of them. What of it is not so; NULL: all is. */
+static const char *unlike(const ves_problem *a, const ves_problem *b)
+{
+    return !same_variables(a, b)     ? "the names of the variables"
+           : !same_measures(a, b)    ? "the measures"
+           : !same_goal(a, b)        ? "what is minimized or maximized"
+           : !same_constraints(a, b) ? "the constraints"
+                                     : NULL;
+}
+
+/* mark: where it stands what is set. */
+static ves_status read(const ves_sweep_task *task, const ves_override *set, int count, ves_mark mark,
+                       ves_problem **problem, ves_diag *diag)
 {
     const ves_problem *base = task->sweep->problem;
     const ves_read_options options = {.overrides = count,
@@ -85,12 +114,14 @@ static ves_status read(const ves_sweep_task *task, const ves_override *set, int 
                                       .inner = true};
     ves_status status =
         ves_problem_read_text(base->path, base->text, strlen(base->text), &options, problem, diag);
-    if (status != VES_OK || fits(base, *problem)) return status;
+    const char *what = status == VES_OK ? unlike(base, *problem) : NULL;
+    if (!what) return status;
     ves_problem_destroy(*problem);
     *problem = NULL;
-    return ves_diag_add(diag, VES_ERROR, VES_USAGE, (ves_mark){0},
-                        "what is set changes which variables, measures and constraints there are: that is "
-                        "another problem, not a point of this sweep");
+    return ves_diag_add(diag, VES_ERROR, VES_USAGE, mark,
+                        "what is set here changes %s: its points could not be compared with the others; "
+                        "sweep it as a file of its own",
+                        what);
 }
 
 ves_status ves_sweep_branch_check(const ves_sweep_task *task, int branch, ves_diag *diag)
@@ -101,7 +132,7 @@ ves_status ves_sweep_branch_check(const ves_sweep_task *task, int branch, ves_di
     ves_override *set = ves_arena_take(&arena, (size_t)settings_most(task->sweep, branch), sizeof *set);
     ves_status status = set ? settings(task->sweep, branch, -1, &arena, set, &count) : VES_MEMORY;
     if (status == VES_OK)
-        status = read(task, set, count, &problem, diag);
+        status = read(task, set, count, task->sweep->def->branch[branch].mark, &problem, diag);
     else
         ves_diag_fail(diag, status);
     ves_problem_destroy(problem);
@@ -134,12 +165,12 @@ static ves_status read_here(search *s, ves_problem **problem)
     ves_override *set = ves_arena_take(&s->scratch, (size_t)settings_most(sweep, branch), sizeof *set);
     if (!set) return VES_MEMORY;
     VES_TRY(settings(sweep, branch, s->index, &s->scratch, set, &count));
-    VES_TRY(read(s->task, set, count, problem, s->diag));
+    VES_TRY(read(s->task, set, count, sweep->def->mark, problem, s->diag));
     if (!s->from) return VES_OK;
     ves_problem *first = *problem; /* whose names are set */
     *problem = NULL;
     ves_status status = start_set(s, first, set, &count);
-    if (status == VES_OK) status = read(s->task, set, count, problem, s->diag);
+    if (status == VES_OK) status = read(s->task, set, count, sweep->def->mark, problem, s->diag);
     ves_problem_destroy(first);
     return status;
 }
@@ -254,6 +285,7 @@ static ves_status take(search *s, const ves_run *run)
     VES_TRY(judge(s, run));
     VES_TRY(notes_take(s, run));
     s->point->feasible = run->any && run->best.feasible;
+    s->point->slope = run->kkt.known ? run->kkt.slope : NAN;
     if (run->any) columns_fill(s->task->sweep, run, s->point->column);
     return s->point->good ? shape_write(s, run) : VES_OK;
 }
@@ -302,7 +334,7 @@ ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, const dou
 {
     search s = {.task = task, .index = index, .from = from, .kept = arena, .diag = diag};
     s.point = &task->sweep->point[index];
-    *s.point = (ves_sweep_point){.done = false};
+    *s.point = (ves_sweep_point){.slope = NAN};
     double begin = ves_study_clock();
     ves_status status = find(&s);
     s.point->wall = ves_study_clock() - begin;

@@ -54,13 +54,13 @@ static void changes_json(const ves_sweep *s, ves_json *json)
     ves_sweep_change c;
     ves_json_array(json, "changes");
     for (int j = 0; j < seconds; j++)
-        for (int place = 0; ves_sweep_change_find(s, j, place, &c); place = c.place + 1) {
+        for (int place = 0; ves_sweep_change_find(s, j, place, &c); place = c.next) {
             ves_json_object(json, NULL);
             if (s->def->axes > 1) ves_json_number(json, axis[1].name, axis[1].value[j]);
             ves_json_text(json, "from", s->walk[c.from].name);
             ves_json_text(json, "to", s->walk[c.to].name);
             ves_json_number(json, "behind", axis->value[c.place]);
-            ves_json_number(json, "before", axis->value[c.place + 1]);
+            ves_json_number(json, "before", axis->value[c.next]);
             ves_json_number(json, "at", c.at);
             ves_json_end(json, '}');
         }

@@ -8,13 +8,12 @@
 /* Which ends at each place are the same, and which is the best. VES_OK or VES_MEMORY. */
 ves_status ves_sweep_compare(ves_sweep *sweep);
 
-/* Between two neighbouring places the best goes from one walk to another: none is best at both. */
+/* The best goes from one walk to another: none is best at both places. All points between them are lost. */
 typedef struct ves_sweep_change {
-    int place;    /* the first of the two */
+    int place, next;
     int from, to; /* walks */
-    double
-        at; /* the value where straight lines through the objectives of both walks cross, as far as these are known
-                     at both places; else NAN */
+    double at; /* the value where straight lines through the objectives of both walks cross; NAN: one is not
+                     known at both places */
 } ves_sweep_change;
 /* The first change at `place` or behind it, of one second value. */
 bool ves_sweep_change_find(const ves_sweep *sweep, int second, int place, ves_sweep_change *change);

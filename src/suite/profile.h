@@ -12,8 +12,8 @@ enum { VES_PROFILE_TARGETS = 13, VES_PROFILE_POINTS = 80 };
 int ves_profile_ecdf(const ves_tally_input *input, const ves_tally *tally, int entrant, double *x, double *y);
 
 /* Share of (problem, run) where a method has found f <= f_L + tau (f_0 - f_L) within x (n + 1) cost units:
- * data profile [More and Wild 2009], f_L the best that any method found in that run (not below the reference), f_0 the worst value that
- * any began with. [room] = bouts * seeds + 2. */
+ * data profile [More and Wild 2009], f_L the best that any method found in that run (not below the reference), f_0 the
+ * worst value that any began with. [room] = bouts * seeds + 2. */
 int ves_profile_data(const ves_tally_input *input, const ves_tally *tally, int entrant, double tau, double *x,
                      double *y);
 
