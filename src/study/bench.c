@@ -1,6 +1,5 @@
 #include "study/bench.h"
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -44,19 +43,15 @@ static bool stopped(void *data)
 /* The first rank tells the others its folder, and what is done. */
 static ves_status join(bench *b)
 {
-    char path[PATH_MAX] = "";
     size_t runs = (size_t)b->shown.runs;
     if (!b->team) return VES_OK;
     unsigned char *done = ves_arena_take(&b->arena, runs, 1);
     VES_TRY(ves_team_meet(b->team, done ? VES_OK : ves_diag_fail(b->diag, VES_MEMORY)));
-    if (ves_team_leads(b->team)) snprintf(path, sizeof path, "%s", b->shown.folder);
     for (size_t k = 0; k < runs; k++) done[k] = b->shown.outcome[k].done;
-    VES_TRY(b->team->tell(b->team->data, path, sizeof path));
     VES_TRY(b->team->tell(b->team->data, done, runs));
-    if (ves_team_leads(b->team)) return ves_team_meet(b->team, VES_OK);
+    ves_status status = ves_team_path(b->team, &b->shown.folder, &b->arena, b->diag);
+    if (ves_team_leads(b->team)) return ves_team_meet(b->team, status);
     for (size_t k = 0; k < runs; k++) b->shown.outcome[k].done = done[k];
-    b->shown.folder = ves_arena_text(&b->arena, path, strlen(path));
-    ves_status status = b->shown.folder ? VES_OK : ves_diag_fail(b->diag, VES_MEMORY);
     if (status == VES_OK) status = ves_bench_files_join(&b->files, b->shown.folder, b->team->rank, b->diag);
     return ves_team_meet(b->team, status);
 }

@@ -1,6 +1,5 @@
 #include "study/sweep.h"
 
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -220,20 +219,6 @@ static ves_status walk_all(whole *w)
     return w->status == VES_OK && !all ? VES_INTERRUPTED : w->status;
 }
 
-/* --- ranks --- */
-
-/* The folder that rank 0 has made. */
-static ves_status folder_tell(whole *w)
-{
-    const ves_team *team = w->options->team;
-    char path[PATH_MAX] = "";
-    if (!team) return VES_OK;
-    if (ves_team_leads(w->options->team)) snprintf(path, sizeof path, "%s", w->shown.folder);
-    VES_TRY(team->tell(team->data, path, sizeof path));
-    w->shown.folder = ves_arena_text(&w->arena, path, strlen(path));
-    return w->shown.folder ? VES_OK : ves_diag_fail(w->diag, VES_MEMORY);
-}
-
 /* --- the folder --- */
 
 static ves_status folder_take(whole *w)
@@ -281,8 +266,7 @@ static ves_status prepare(whole *w)
     VES_TRY(room_make(w));
     for (int k = 0; k < s->def->branches; k++) VES_TRY(ves_sweep_branch_check(&w->task, k, w->diag));
     VES_TRY(ves_team_follow(w->options->team, folder_take(w)));
-    VES_TRY(folder_tell(w));
-    return VES_OK;
+    return ves_team_path(w->options->team, &w->shown.folder, &w->arena, w->diag);
 }
 
 /* The other ranks, which have no lock of the folder, say that they are there. */

@@ -1,8 +1,12 @@
 #include "study/team.h"
 
+#include <limits.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "base/diag.h"
 
 bool ves_team_leads(const ves_team *team)
 {
@@ -29,6 +33,17 @@ ves_status ves_team_meet(const ves_team *team, ves_status status)
         if (said && (status == VES_OK || status == VES_INTERRUPTED)) status = (ves_status)said;
     }
     return status;
+}
+
+ves_status ves_team_path(const ves_team *team, const char **path, ves_arena *arena, ves_diag *diag)
+{
+    char text[PATH_MAX] = "";
+    if (!team) return VES_OK;
+    if (team->rank == 0) snprintf(text, sizeof text, "%s", *path);
+    VES_TRY(team->tell(team->data, text, sizeof text));
+    if (team->rank == 0) return VES_OK;
+    *path = ves_arena_text(arena, text, strlen(text));
+    return *path ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
 }
 
 static int bounded(long count)
