@@ -3,18 +3,6 @@
 
 #include "program.h"
 
-/* In the copy of a file, for a test that spoils it. */
-static void replace(const char *path, const char *old, const char *new)
-{
-    char *text = slurp(path), *at = strstr(text, old);
-    cr_assert(at != NULL, "no %s in %s", old, path);
-    FILE *out = fopen(path, "w");
-    cr_assert(out != NULL);
-    fprintf(out, "%.*s%s%s", (int)(at - text), text, new, at + strlen(old));
-    fclose(out);
-    free(text);
-}
-
 /* One limit for all: Criterion forgets a timer of its own where tests that run side by side have different ones. */
 TestSuite(cli_bench_ends, .timeout = 600);
 

@@ -139,6 +139,18 @@ static inline int count_of(const char *path, const char *word)
     return count;
 }
 
+/* In the copy of a file, for a test that spoils it. */
+static inline void replace(const char *path, const char *old, const char *new)
+{
+    char *text = slurp(path), *at = strstr(text, old);
+    cr_assert(at != NULL, "no %s in %s", old, path);
+    FILE *out = fopen(path, "w");
+    cr_assert(out != NULL);
+    fprintf(out, "%.*s%s%s", (int)(at - text), text, new, at + strlen(old));
+    fclose(out);
+    free(text);
+}
+
 /* Until there is something in a file: a sign that the program is at work. */
 static inline void wait_for_file(const char *path)
 {

@@ -243,7 +243,7 @@ static ves_status line_up(bench *b)
 /* What the other ranks have done. */
 static ves_status gather(bench *b)
 {
-    ves_status status = ves_bench_files_gather(&b->files, b->shown.suite, b->shown.outcome);
+    ves_status status = ves_bench_files_gather(&b->files, &b->shown);
     b->shown.done = 0;
     for (int k = 0; k < b->shown.runs; k++) b->shown.done += b->shown.outcome[k].done;
     return status;
@@ -310,7 +310,7 @@ static ves_status finish(bench *b, ves_status status, ves_bench **out)
     if (ves_team_leads(b->team) && b->files.folder && b->shown.tally.score)
         closed = ves_bench_report_write(&b->shown, b->diag);
     for (int k = 0; b->ring && k < b->shown.suite->bouts; k++) ves_ring_close(&b->ring[k]);
-    ves_status ended = ves_bench_files_end(&b->files, b->shown.suite, b->shown.outcome);
+    ves_status ended = ves_bench_files_end(&b->files, &b->shown);
     if (closed == VES_OK) closed = ended;
     if (status == VES_OK) status = closed;
     if (b->shown.tally.score && b->shown.done > 0)
@@ -423,7 +423,7 @@ ves_status ves_bench_resume(const char *folder, const ves_read_options *added,
     if (!ves_team_leads(b->team)) return finish(b, status == VES_OK ? rings_open(b) : status, out);
     if (status == VES_OK) status = ves_bench_files_take(&b->files, b->shown.folder, &b->arena, diag);
     if (status == VES_OK) status = rings_open(b);
-    if (status == VES_OK) status = ves_bench_files_again(&b->files, suite, b->shown.outcome);
+    if (status == VES_OK) status = ves_bench_files_again(&b->files, &b->shown);
     if (status == VES_OK && added->overrides) status = about_write(b);
     return finish(b, status, out);
 }

@@ -22,14 +22,14 @@ typedef struct ves_bench_files {
 ves_status ves_bench_files_take(ves_bench_files *files, const char *folder, ves_arena *arena, ves_diag *diag);
 /* Makes what a new folder begins with. */
 ves_status ves_bench_files_begin(ves_bench_files *files);
-/* Opens those of a folder, and reads the runs that hold, outcome[ves_suite_runs]. What is damaged is told, and done
- * again. */
-ves_status ves_bench_files_again(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome);
+/* Opens those of a folder, and reads the runs that hold into bench->outcome. bench->bout is known. What is damaged is
+ * told, and done again. */
+ves_status ves_bench_files_again(ves_bench_files *files, const ves_bench *bench);
 /* Another rank joins the one that has the folder; in the end that one reads what the others have written. */
 ves_status ves_bench_files_join(ves_bench_files *files, const char *folder, int rank, ves_diag *diag);
-ves_status ves_bench_files_gather(ves_bench_files *files, const ves_suite *suite, ves_outcome *outcome);
+ves_status ves_bench_files_gather(ves_bench_files *files, const ves_bench *bench);
 /* Puts the lines of the runs that are done in order, closes the files and lets the folder go. */
-ves_status ves_bench_files_end(ves_bench_files *files, const ves_suite *suite, const ves_outcome *outcome);
+ves_status ves_bench_files_end(ves_bench_files *files, const ves_bench *bench);
 
 /* The journal of a run, and then its lines. One call at a time. */
 ves_status ves_bench_journal_write(const ves_bench_files *files, int index, const ves_outcome *outcome);

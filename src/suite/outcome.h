@@ -25,6 +25,10 @@ typedef struct ves_outcome {
 
 void ves_outcome_clear(ves_outcome *outcome); /* frees what it holds */
 
+/* Can a meter have counted so? To be asked of what comes from a file; x is [n]. */
+bool ves_outcome_holds(const ves_outcome *outcome); /* all but the steps */
+bool ves_outcome_leads(const ves_outcome *outcome); /* the steps, from better to better, to the best */
+
 /* Cost at which a feasible value up to `value` was first known; INFINITY: never. */
 double ves_outcome_reach(const ves_outcome *outcome, double value);
 
