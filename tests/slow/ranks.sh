@@ -105,6 +105,20 @@ for signal in KILL TERM; do
   done
   same_bench bench "$run"
 done
+# What one rank has left cannot be read when it is over: the others' lines, and its own, stay.
+cat >odd.yaml <<EOF
+vesica: 1
+suite: odd
+problems: [{function: sphere, n: 2}]
+methods: {auto: {search: auto}, odd: {program: [sh, -c, "[ -e odd/was ] || mv odd/times.1.jsonl odd/was; mkdir odd/times.1.jsonl; read a; exit 3"]}}
+seeds: 8
+EOF
+bench 2 odd.yaml --out odd && exit 1
+grep -q 'cannot read "odd/times.1.jsonl"' out
+[ "$(cat odd/runs.jsonl odd/runs.1.jsonl | wc -l)" -eq 16 ]
+rmdir odd/times.1.jsonl && mv odd/was odd/times.1.jsonl
+bench 2 --resume odd
+grep -q '16 of 16 runs are there already' out
 bench 2 suite.yaml --no-files && exit 1
 grep -q 'not with --no-files' out
 echo "1, 2 and 3 ranks: the same bytes"
