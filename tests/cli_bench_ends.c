@@ -67,6 +67,79 @@ Test(cli_bench_ends, goes_on_only_with_the_same)
     root_remove();
 }
 
+/* A program that is added later is one of the methods as any other: its runs are what they would have been, those
+ * that were there stay, a stop is told, and it may not become another one. */
+Test(cli_bench_ends, a_program_can_be_added)
+{
+    static const char head[] =
+        "vesica: 1\nsuite: added\nproblems: [{file: ./can.yaml}, {function: sphere, n: "
+        "2}]\nseeds: 2\nbudget: {per_dimension: 60}\nmethods:\n  auto: {search: auto}\n";
+    static const char random[] = "  random: {program: [python3, ./random.py]}\n";
+    char text[600];
+    root_make();
+    cr_assert(system("cp " VESICA_SOURCE "/bench/suites/random.py . && cp " PROBLEMS
+                     "bottle.yaml can.yaml && "
+                     "mkdir elsewhere") == 0);
+    snprintf(text, sizeof text, "%s%s", head, random);
+    write_file("both.yaml", text);
+    write_file("s.yaml", head);
+    write_file("may_hang.sh", "[ ! -e hang ] || exec sleep 60\nread a\nexit 3\n");
+    expect(vesica(NULL, "bench both.yaml --out both"), 0, NULL, NULL, "both");
+    expect(vesica(NULL, "bench s.yaml --out b"), 0, NULL, NULL, "one");
+    cr_expect(count_of("b/bench.json", "random.py") == 0);
+    cr_assert(chdir("elsewhere") == 0); /* ./ is where the suite is */
+    hush();
+    expect(vesica(NULL, "bench --resume ../b --add random={\"program\":[python3,./random.py]}"), 0, "random",
+           "4 of 8 runs are there already", "added");
+    cr_assert(chdir("..") == 0);
+    same_file("both/runs.jsonl", "b/runs.jsonl");
+    same_file("both/report.json", "b/report.json");
+    cr_expect(count_of("b/bench.json", "random.py") == 1);
+
+    write_file("hang", "");
+    pid_t child = launch("bench --resume b --add maybe={\"program\":[sh,./may_hang.sh],\"seconds\":60}", NULL,
+                         "stdout.b");
+    for (int k = 0; k < 1000 && count_of("b/bench.json", "may_hang.sh") == 0; k++)
+        nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+    nanosleep(&(struct timespec){.tv_nsec = 200000000}, NULL);
+    kill(child, SIGTERM);
+    cr_expect(wait_for(child) == 130);
+    cr_expect(count_of("stdout.b", "No verdict: there is no run yet of maybe.") == 1);
+    cr_expect(count_of("stderr", "bench --resume b") == 1);
+    cr_expect(count_of("b/report.json", "\"interrupted\": true") == 1);
+    same_file("both/runs.jsonl", "b/runs.jsonl");
+    cr_assert(remove("hang") == 0);
+    expect(vesica(NULL, "bench --resume b"), 0, "maybe", "8 of 12 runs are there already", "gone on with");
+    cr_expect(count_of("b/runs.jsonl", "\"end\":\"failed\",\"reason\":\"the program ended") == 4);
+    cr_expect(count_of("b/report.json", "\"interrupted\": false") == 1);
+
+    replace("may_hang.sh", "exit 3", "exit 4");
+    expect(vesica(NULL, "bench --resume b"), 2, NULL, "may_hang.sh\" is not what it was", "another program");
+    replace("may_hang.sh", "exit 4", "exit 3");
+    expect(vesica(NULL, "bench --resume b"), 0, NULL, "12 of 12", "the same again");
+    cr_assert(remove("random.py") == 0);
+    expect(vesica(NULL, "bench --resume b --add nm={\"nlopt\":LN_NELDERMEAD}"), 2, NULL,
+           "random.py\" is not what it was", "no program");
+    cr_expect(count_of("b/bench.json", "nm") == 0);
+    root_remove();
+}
+
+Test(cli_bench_ends, goes_on_only_with_the_same_plugin)
+{
+    root_make();
+    cr_assert(system("cc -std=c17 -shared -fPIC -I" VESICA_SOURCE "/include -o tower.so " VESICA_SOURCE
+                     "/examples/objective/tower.c -lm && cp tower.so keep.so") == 0);
+    write_file("s.yaml",
+               "vesica: 1\nsuite: s\nproblems: [{plugin: ./tower.so}]\nseeds: 2\nbudget: {per_dimension: "
+               "60}\nmethods: {auto: {search: auto}}\n");
+    expect(vesica(NULL, "bench s.yaml --out b"), 0, NULL, NULL, "plugin");
+    cr_assert(system("echo >>tower.so") == 0);
+    expect(vesica(NULL, "bench --resume b"), 2, NULL, "tower.so\" is not what it was", "another");
+    cr_assert(rename("keep.so", "tower.so") == 0);
+    expect(vesica(NULL, "bench --resume b"), 0, NULL, "2 of 2 runs are there already", "the same");
+    root_remove();
+}
+
 /* Lines in any order hold; what is damaged is named and made again. */
 Test(cli_bench_ends, what_is_damaged_is_made_again)
 {
@@ -212,6 +285,8 @@ Test(cli_bench_ends, seeds_and_what_they_can_show)
                          "LN_SBPLX}}\n");
     expect(vesica(NULL, "bench s.yaml --out one"), 0,
            "too few runs: whatever comes of them, p cannot fall below 0.062", NULL, "five");
+    cr_expect(count_of("one/report.json", "\"verdict\": \"too few runs\"") > 0);
+    cr_expect(count_of("one/report.json", "\"p_least\": 0.0625") > 0);
     expect(vesica(NULL, "bench s.yaml --set seed=1 --out again"), 0, NULL, NULL, "one");
     same_file("one/runs.jsonl", "again/runs.jsonl");
     /* the point where a descent ends is the instance's */
