@@ -13,13 +13,18 @@ enum {
     LEFT = 84,
     RIGHT = 210,
     TOP = 56,
+    NEAR = 18,
     BOTTOM = 64,
     LABEL = 400,
+    ROOM = 20, /* beside a guide */
     COLOURS = 8,
+    MANY = 400,
     DASHES = 5
 };
 
 static const ves_rgb ink = {0.16, 0.19, 0.23}, quiet = {0.42, 0.46, 0.51}, faint = {0.87, 0.89, 0.91};
+
+static const double FEW = 1.5; /* decades */
 
 /* Lines beyond the colours there are get dashes. */
 static const double dash[DASHES][4] = {{0, 0, 0, 0}, {7, 4, 7, 4}, {2, 3, 2, 3}, {11, 3, 2, 3}, {5, 2, 1, 2}};
@@ -60,6 +65,22 @@ static void words_fit(cairo_t *c, double x, double y, double align, double size,
     words(c, x, y, align, text);
 }
 
+/* A chart without a title, or without words under its axis, stands nearer to its neighbour. */
+static double top_of(const ves_chart *chart)
+{
+    return chart->title ? TOP : NEAR;
+}
+
+static double height_of(const ves_chart *chart)
+{
+    return chart->height ? chart->height : HEIGHT;
+}
+
+static double bottom_of(const ves_chart *chart)
+{
+    return height_of(chart) - (chart->x.label ? BOTTOM : BOTTOM - TOP + NEAR);
+}
+
 /* 0 ... 1 along the axis. */
 static double along(const ves_chart_axis *a, double value)
 {
@@ -74,26 +95,38 @@ static double px(const ves_chart *chart, double x)
 
 static double py(const ves_chart *chart, double y)
 {
-    return HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * along(&chart->y, y);
+    return bottom_of(chart) - (bottom_of(chart) - top_of(chart)) * along(&chart->y, y);
 }
 
-/* Decades (or every second, third ... so that at most ten are told) or round tenths. */
+/* Decades (or every second, third ... so that at most ten are told) or round tenths. Of few decades 1, 2 and 5 of
+ * each: step 0. */
 static double first_tick(const ves_chart_axis *a, double *step)
 {
     if (a->logarithmic) {
-        double decades = log10(a->high / a->low);
-        *step = pow(10, ceil(decades / 10));
-        return pow(10, ceil(log10(a->low) - 1e-9));
+        double decades = log10(a->high / a->low), power = pow(10, floor(log10(a->low) + 1e-9)),
+               least = a->low * (1 - 1e-9);
+        *step = decades < FEW ? 0 : pow(10, ceil(decades / 10));
+        if (*step > 0) return pow(10, ceil(log10(a->low) - 1e-9));
+        return power * (power >= least ? 1 : 2 * power >= least ? 2 : 5 * power >= least ? 5 : 10);
     }
     double raw = (a->high - a->low) / 6, power = pow(10, floor(log10(raw)));
     *step = power * (raw / power > 5 ? 10 : raw / power > 2 ? 5 : raw / power > 1 ? 2 : 1);
     return ceil(a->low / *step - 1e-9) * *step;
 }
 
+static double next_tick(const ves_chart_axis *a, double at, double step)
+{
+    if (!a->logarithmic) return at + step;
+    if (step > 0) return at * step;
+    double first = at / pow(10, floor(log10(at) + 1e-9)); /* 1, 2 or 5 */
+    return at * (first > 1.5 && first < 3 ? 2.5 : 2);
+}
+
 static void tick_text(const ves_chart_axis *a, double value, char text[32])
 {
+    double power = floor(log10(value) + 1e-9);
     if (a->logarithmic && (value >= 1e5 || value < 1e-3))
-        snprintf(text, 32, "1e%d", (int)lround(log10(value)));
+        snprintf(text, 32, "%.0fe%.0f", value / pow(10, power), power);
     else
         snprintf(text, 32, "%.6g", fabs(value) < 1e-12 ? 0 : value);
 }
@@ -101,44 +134,44 @@ static void tick_text(const ves_chart_axis *a, double value, char text[32])
 static void grid(cairo_t *c, const ves_chart *chart, bool upright)
 {
     const ves_chart_axis *a = upright ? &chart->y : &chart->x;
+    const double bottom = bottom_of(chart);
     double step, most = a->high * (1 + 1e-9) + (a->logarithmic ? 0 : 1e-12), at = first_tick(a, &step);
     cairo_set_line_width(c, 1);
-    for (; at <= most; at = a->logarithmic ? at * step : at + step) {
-        double x = upright ? LEFT : px(chart, at), y = upright ? py(chart, at) : TOP;
+    for (; at <= most; at = next_tick(a, at, step)) {
+        double x = upright ? LEFT : px(chart, at), y = upright ? py(chart, at) : top_of(chart);
         char text[32];
         colour(c, faint, 1);
         cairo_move_to(c, x, y);
-        cairo_line_to(c, upright ? WIDTH - RIGHT : x, upright ? y : HEIGHT - BOTTOM);
+        cairo_line_to(c, upright ? WIDTH - RIGHT : x, upright ? y : bottom);
         cairo_stroke(c);
         colour(c, quiet, 1);
         tick_text(a, at, text);
         if (upright)
             words(c, LEFT - 8, y + 4, 1, text);
         else
-            words(c, x, HEIGHT - BOTTOM + 18, 0.5, text);
+            words(c, x, bottom + 18, 0.5, text);
     }
 }
 
 static void frame(cairo_t *c, const ves_chart *chart)
 {
-    colour(c, (ves_rgb){1, 1, 1}, 1);
-    cairo_paint(c);
+    const double bottom = bottom_of(chart);
     font(c, 12, false);
     grid(c, chart, false);
     grid(c, chart, true);
     colour(c, ink, 1);
     cairo_set_line_width(c, 1);
-    cairo_rectangle(c, LEFT, TOP, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM);
+    cairo_rectangle(c, LEFT, top_of(chart), WIDTH - LEFT - RIGHT, bottom - top_of(chart));
     cairo_stroke(c);
     font(c, 13, false);
-    words(c, LEFT + (WIDTH - LEFT - RIGHT) / 2.0, HEIGHT - 20, 0.5, chart->x.label);
+    words(c, LEFT + (WIDTH - LEFT - RIGHT) / 2.0, bottom + BOTTOM - 20, 0.5, chart->x.label);
     cairo_save(c);
-    cairo_translate(c, 22, TOP + (HEIGHT - TOP - BOTTOM) / 2.0);
+    cairo_translate(c, 22, top_of(chart) + (bottom - top_of(chart)) / 2.0);
     cairo_rotate(c, -acos(-1) / 2);
-    words_fit(c, 0, 0, 0.5, 13, HEIGHT - TOP - BOTTOM, chart->y.label);
+    words_fit(c, 0, 0, 0.5, 13, bottom - top_of(chart), chart->y.label);
     cairo_restore(c);
     font(c, 16, true);
-    words_fit(c, LEFT, 34, 0, 16, WIDTH - LEFT - 20, chart->title);
+    if (chart->title) words_fit(c, LEFT, 34, 0, 16, WIDTH - LEFT - 20, chart->title);
 }
 
 static void dashes(cairo_t *c, int index)
@@ -153,10 +186,11 @@ static bool shown(const ves_chart *chart, double x, double y)
     return isfinite(x) && isfinite(y) && (x > 0 || !chart->x.logarithmic) && (y > 0 || !chart->y.logarithmic);
 }
 
-static void mark_draw(cairo_t *c, ves_chart_mark mark, double x, double y)
+/* Specks are smaller where there are many. */
+static void mark_draw(cairo_t *c, const ves_chart_line *l, double x, double y)
 {
-    if (mark != VES_MARK_CROSS) {
-        cairo_arc(c, x, y, mark == VES_MARK_DOT ? 2.5 : 1.2, 0, 2 * acos(-1));
+    if (l->mark != VES_MARK_CROSS) {
+        cairo_arc(c, x, y, l->mark == VES_MARK_DOT ? 2.5 : l->count > MANY ? 1.2 : 2, 0, 2 * acos(-1));
         cairo_fill(c);
         return;
     }
@@ -173,7 +207,7 @@ static void marks_draw(cairo_t *c, const ves_chart *chart, int index)
     colour(c, l->mark == VES_MARK_CROSS ? ink : ves_colour_line(index), l->mark == VES_MARK_SPECK ? 0.5 : 1);
     cairo_set_line_width(c, 1.5);
     for (int k = 0; k < l->count && l->mark != VES_MARK_NONE; k++)
-        if (shown(chart, l->x[k], l->y[k])) mark_draw(c, l->mark, px(chart, l->x[k]), py(chart, l->y[k]));
+        if (shown(chart, l->x[k], l->y[k])) mark_draw(c, l, px(chart, l->x[k]), py(chart, l->y[k]));
 }
 
 static void line_draw(cairo_t *c, const ves_chart *chart, int index)
@@ -222,10 +256,11 @@ static void band_draw(cairo_t *c, const ves_chart *chart, int index)
 
 static void legend(cairo_t *c, const ves_chart *chart)
 {
-    double step = fmin(20, (HEIGHT - TOP - 24.0) / chart->lines), size = fmin(13, 0.8 * step);
+    double step = fmin(20, (height_of(chart) - top_of(chart) - 24.0) / chart->lines),
+           size = fmin(13, 0.8 * step);
     font(c, size, false);
     for (int k = 0; k < chart->lines; k++) {
-        double x = WIDTH - RIGHT + 18, y = TOP + 12 + step * k;
+        double x = WIDTH - RIGHT + 18, y = top_of(chart) + 12 + step * k;
         const ves_chart_mark mark = chart->line[k].mark;
         const bool alone = mark == VES_MARK_CROSS || mark == VES_MARK_SPECK;
         colour(c, mark == VES_MARK_CROSS ? ink : ves_colour_line(k), 1);
@@ -237,28 +272,75 @@ static void legend(cairo_t *c, const ves_chart *chart)
             cairo_stroke(c);
         }
         cairo_set_dash(c, NULL, 0, 0);
-        if (alone) mark_draw(c, mark, x + 13, y - 4);
+        if (alone) mark_draw(c, &chart->line[k], x + 13, y - 4);
         colour(c, ink, 1);
         words_fit(c, x + 34, y, 0, size, RIGHT - 58, chart->line[k].name);
     }
 }
 
-static void draw(cairo_t *c, const void *data)
+/* Dashes, and the word beside their upper end; on the other side where there is no room. */
+static void guide_draw(cairo_t *c, const ves_chart *chart, const ves_chart_guide *guide)
 {
-    const ves_chart *chart = data;
+    if (!(guide->x >= chart->x.low && guide->x <= chart->x.high)) return;
+    const double x = px(chart, guide->x);
+    const bool left = guide->left ? x - LEFT >= ROOM : WIDTH - RIGHT - x < ROOM;
+    colour(c, quiet, 1);
+    cairo_set_line_width(c, 1.2);
+    cairo_set_dash(c, dash[1], 4, 0);
+    cairo_move_to(c, x, top_of(chart));
+    cairo_line_to(c, x, bottom_of(chart));
+    cairo_stroke(c);
+    cairo_set_dash(c, NULL, 0, 0);
+    if (!guide->name) return;
+    font(c, 12, false);
+    colour(c, ink, 1);
+    cairo_save(c);
+    cairo_translate(c, left ? x - 5 : x + 14, top_of(chart) + 8);
+    cairo_rotate(c, -acos(-1) / 2);
+    words(c, 0, 0, 1, guide->name);
+    cairo_restore(c);
+}
+
+static void chart_draw(cairo_t *c, const ves_chart *chart)
+{
     frame(c, chart);
     cairo_save(c);
-    cairo_rectangle(c, LEFT, TOP - 1, WIDTH - LEFT - RIGHT, HEIGHT - TOP - BOTTOM + 2);
+    cairo_rectangle(c, LEFT, top_of(chart) - 1, WIDTH - LEFT - RIGHT, bottom_of(chart) - top_of(chart) + 2);
     cairo_clip(c);
     for (int k = 0; k < chart->lines; k++) band_draw(c, chart, k);
     for (int k = 0; k < chart->lines; k++) line_draw(c, chart, k);
     cairo_restore(c);
     for (int k = 0; k < chart->lines; k++) marks_draw(c, chart, k); /* over the frame too */
+    for (int k = 0; k < chart->guides; k++) guide_draw(c, chart, &chart->guide[k]);
     legend(c, chart);
+}
+
+typedef struct sheet {
+    const ves_chart *chart;
+    int charts;
+} sheet;
+
+static void draw(cairo_t *c, const void *data)
+{
+    const sheet *s = data;
+    colour(c, (ves_rgb){1, 1, 1}, 1);
+    cairo_paint(c);
+    for (int k = 0; k < s->charts; k++) {
+        chart_draw(c, &s->chart[k]);
+        cairo_translate(c, 0, height_of(&s->chart[k]));
+    }
+}
+
+ves_status ves_charts_write(const ves_chart *chart, int charts, const char *path, ves_diag *diag)
+{
+    const sheet s = {chart, charts};
+    double height = 0;
+    for (int k = 0; k < charts; k++) height += height_of(&chart[k]);
+    const ves_paper paper = {WIDTH, (int)height, chart->title, draw, &s};
+    return ves_paper_write(&paper, path, diag);
 }
 
 ves_status ves_chart_write(const ves_chart *chart, const char *path, ves_diag *diag)
 {
-    const ves_paper paper = {WIDTH, HEIGHT, chart->title, draw, chart};
-    return ves_paper_write(&paper, path, diag);
+    return ves_charts_write(chart, 1, path, diag);
 }

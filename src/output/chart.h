@@ -25,14 +25,28 @@ typedef struct ves_chart_axis {
     bool logarithmic;
 } ves_chart_axis;
 
+/* A place on the x axis: an upright line with a word along its right or left side, or NULL. One that lies beyond the axis,
+ * or is no number, is not drawn. */
+typedef struct ves_chart_guide {
+    const char *name;
+    double x;
+    bool left;
+} ves_chart_guide;
+
 typedef struct ves_chart {
-    const char *title;
+    const char *title; /* or NULL */
     ves_chart_axis x, y;
     int lines;
     const ves_chart_line *line;
+    int guides;
+    const ves_chart_guide *guide;
+    int height; /* pixels; 0: 600 */
 } ves_chart;
 
 /* PNG, SVG or PDF, by the ending. */
 ves_status ves_chart_write(const ves_chart *chart, const char *path, ves_diag *diag);
+
+/* Several below each other on one sheet, with the title of the first. */
+ves_status ves_charts_write(const ves_chart *chart, int charts, const char *path, ves_diag *diag);
 
 #endif
