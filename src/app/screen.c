@@ -464,9 +464,9 @@ static void conclusion(const ves_run *run, FILE *out)
         fprintf(out, "\n  the result %s\n",
                 stopped ? "has not passed its checks" : "did not pass its checks (see above)");
     if (!run->folder) return;
-    fprintf(out, "\n  %s/   %sstart.vtp  result.json  %s%slog.txt\n", run->folder,
-            run->any ? "best.vtp  best.png  " : "", run->searched ? "trace.jsonl  " : "",
-            run->journaled ? "journal  " : "");
+    fprintf(out, "\n  %s/   %s%sstart.vtp  result.json  %s%slog.txt\n", run->folder,
+            run->any ? "best.vtp  best.png  " : "", run->optima > 1 ? "optima.png  " : "",
+            run->searched ? "trace.jsonl  " : "", run->journaled ? "journal  " : "");
     if (!run->any) return;
     fprintf(out, "  next: %s export %s --to stl,obj", app_called(), run->folder);
     plugins(run->problem, out);

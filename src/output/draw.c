@@ -15,11 +15,11 @@ typedef struct sheet {
     const ves_figure *figure;
     const ves_view *view;
     const ves_scene *scene;
-    double unit; /* pixels on paper of 960 x 720 */
+    double unit;
 } sheet;
 
 /* Lengths of the layout follow the paper. */
-static double unit_of(const ves_view *view)
+double ves_draw_unit(const ves_view *view)
 {
     return fmax(0.35, fmin(view->width / 960.0, view->height / 720.0));
 }
@@ -31,7 +31,7 @@ static bool has_names(const ves_figure *figure)
 
 ves_frame ves_draw_frame(const ves_figure *figure, const ves_view *view)
 {
-    double unit = unit_of(view), side = 40 * unit;
+    double unit = ves_draw_unit(view), side = 40 * unit;
     bool legend = ves_scene_quantity(view->colour) > 0;
     double right = legend || has_names(figure) ? 130 * unit : side;
     double top = figure->title && figure->title[0] ? 76 * unit : side;
@@ -136,11 +136,11 @@ static void piece_draw(const sheet *s, const ves_piece *p)
     if (p->lines) mesh_lines(s, p);
 }
 
-static void shape(const sheet *s)
+static void shape(const sheet *s, const ves_scene *scene)
 {
     cairo_set_line_cap(s->cairo, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(s->cairo, CAIRO_LINE_JOIN_ROUND);
-    for (int k = 0; k < s->scene->pieces; k++) piece_draw(s, &s->scene->piece[k]);
+    for (int k = 0; k < scene->pieces; k++) piece_draw(s, &scene->piece[k]);
     cairo_set_line_cap(s->cairo, CAIRO_LINE_CAP_BUTT);
 }
 
@@ -330,11 +330,12 @@ static void names(const sheet *s)
     }
 }
 
-void ves_draw(cairo_t *cairo, const ves_figure *figure, const ves_view *view, const ves_scene *scene)
+void ves_draw(cairo_t *cairo, const ves_figure *figure, const ves_view *view, const ves_scene *scene,
+              int scenes, double unit)
 {
-    const sheet s = {cairo, figure, view, scene, unit_of(view)};
+    const sheet s = {cairo, figure, view, scene, unit};
     background(&s);
-    shape(&s);
+    for (int k = 0; k < scenes; k++) shape(&s, &scene[k]);
     title(&s);
     scale_bar(&s);
     axes(&s);

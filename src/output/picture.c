@@ -37,7 +37,7 @@ typedef struct drawing {
 static void draw(cairo_t *cairo, const void *data)
 {
     const drawing *d = data;
-    ves_draw(cairo, d->figure, d->view, d->scene);
+    ves_draw(cairo, d->figure, d->view, d->scene, 1, ves_draw_unit(d->view));
 }
 
 ves_status ves_picture_write(ves_figure *figure, const ves_view *view, const char *path, ves_diag *diag)

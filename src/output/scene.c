@@ -43,10 +43,9 @@ static int natural_up(const ves_figure *figure, double size)
     return up;
 }
 
-static void camera_aim(ves_camera *camera, const ves_figure *figure, const ves_view *view, double size)
+static void camera_aim(ves_camera *camera, const ves_view *view, int up)
 {
-    int up = view->up < 0 || view->up > 2 ? natural_up(figure, size) : view->up, e1 = (up + 1) % 3,
-        e2 = (up + 2) % 3;
+    int e1 = (up + 1) % 3, e2 = (up + 2) % 3;
     double ca = cos(view->azimuth), sa = sin(view->azimuth), ch = cos(view->height_angle);
     camera->toward[e1] = ch * ca, camera->toward[e2] = ch * sa, camera->toward[up] = sin(view->height_angle);
     camera->right[e1] = -sa, camera->right[e2] = ca, camera->right[up] = 0;
@@ -98,6 +97,16 @@ static void camera_fit(ves_camera *camera, const ves_figure *figure, const ves_f
     camera->scale = fmin((frame->right - frame->left) / wide, (frame->bottom - frame->top) / high);
     camera->x = (frame->left + frame->right) / 2 - camera->scale * (lo[0] + hi[0]) / 2;
     camera->y = (frame->top + frame->bottom) / 2 - camera->scale * (lo[1] + hi[1]) / 2;
+}
+
+/* To a smaller scale, in the middle of the frame as before. */
+static void camera_shrink(ves_camera *camera, const ves_frame *frame, double scale)
+{
+    double x = (frame->left + frame->right) / 2, y = (frame->top + frame->bottom) / 2;
+    if (scale >= camera->scale) return;
+    camera->x = x + (camera->x - x) * scale / camera->scale;
+    camera->y = y + (camera->y - y) * scale / camera->scale;
+    camera->scale = scale;
 }
 
 /* Lambert from two soft lamps that go with the viewer, a highlight, and a shade towards the outline. n,
@@ -389,23 +398,40 @@ static void curves_add(const maker *m)
     }
 }
 
-static ves_status colours_find(ves_scene *scene, const ves_figure *figure, int quantity, ves_arena *arena)
+/* The planes of one scene; their values go behind the `count` that are there. */
+static ves_status planes_find(ves_scene *scene, const ves_figure *figure, int quantity, ves_arena *arena,
+                              double *values, int *count)
 {
-    int count = 0, at = 0;
-    for (int k = 0; k < figure->patches; k++) count += nodes(&figure->patch[k]);
-    double *values = ves_arena_doubles(arena, (size_t)count);
     const double **plane = ves_arena_take(arena, (size_t)figure->patches, sizeof *plane);
-    if (!values || !plane) return VES_MEMORY;
+    if (!plane) return VES_MEMORY;
     for (int k = 0; k < figure->patches; k++) {
         const ves_figure_patch *p = &figure->patch[k];
         const double *const choice[] = {NULL, p->H, p->K, p->k1, p->k2};
         plane[k] = choice[quantity];
-        memcpy(values + at, plane[k], (size_t)nodes(p) * sizeof *values);
-        at += nodes(p);
+        memcpy(values + *count, plane[k], (size_t)nodes(p) * sizeof *values);
+        *count += nodes(p);
     }
-    double unit = quantity == 2 ? 1 / (scene->size * scene->size) : 1 / scene->size;
     scene->plane = plane;
-    scene->colours = ves_colour_scale_of(values, count, 1e-6 * unit, unit);
+    return VES_OK;
+}
+
+/* One scale for all. */
+static ves_status colours_find(ves_scene *scene, const ves_figure *const *figure, int scenes, int quantity,
+                               ves_arena *arena)
+{
+    int all = 0, count = 0;
+    double size = 0;
+    for (int s = 0; s < scenes; s++) {
+        size = fmax(size, scene[s].size);
+        for (int k = 0; k < figure[s]->patches; k++) all += nodes(&figure[s]->patch[k]);
+    }
+    double *values = ves_arena_doubles(arena, (size_t)all),
+           unit = quantity == 2 ? 1 / (size * size) : 1 / size;
+    if (!values) return VES_MEMORY;
+    for (int s = 0; s < scenes; s++)
+        VES_TRY(planes_find(&scene[s], figure[s], quantity, arena, values, &count));
+    scene[0].colours = ves_colour_scale_of(values, count, 1e-6 * unit, unit);
+    for (int s = 1; s < scenes; s++) scene[s].colours = scene[0].colours;
     return VES_OK;
 }
 
@@ -429,17 +455,9 @@ static long pieces_needed(ves_scene *scene, const ves_figure *figure, double cel
     return need;
 }
 
-ves_status ves_scene_build(ves_scene *scene, const ves_figure *figure, const ves_view *view,
-                           const ves_frame *frame, ves_arena *arena)
+static ves_status pieces_make(ves_scene *scene, const ves_figure *figure, const ves_view *view, double cell,
+                              ves_arena *arena)
 {
-    int quantity = ves_scene_quantity(view->colour);
-    double cell = frame->cell;
-    *scene = (ves_scene){0};
-    scene->size = bounds(figure, scene->camera.target);
-    scene->camera.distance = view->orthographic ? 0 : 4.6 * scene->size;
-    camera_aim(&scene->camera, figure, view, scene->size);
-    camera_fit(&scene->camera, figure, frame);
-    if (quantity > 0) VES_TRY(colours_find(scene, figure, quantity, arena));
     int most = 1;
     for (int k = 0; k < figure->patches; k++)
         if (figure->patch[k].nv > most) most = figure->patch[k].nv;
@@ -460,4 +478,39 @@ ves_status ves_scene_build(ves_scene *scene, const ves_figure *figure, const ves
     }
     qsort(scene->piece, (size_t)scene->pieces, sizeof *scene->piece, compare);
     return VES_OK;
+}
+
+/* The side that is up is that of the first figure; the scale that which all have room for. */
+static void cameras_set(ves_scene *scene, const ves_figure *const *figure, int scenes, const ves_view *view,
+                        const ves_frame *frame)
+{
+    double scale = HUGE_VAL;
+    int up = view->up;
+    for (int s = 0; s < scenes; s++) {
+        ves_camera *camera = &scene[s].camera;
+        scene[s] = (ves_scene){0};
+        scene[s].size = bounds(figure[s], camera->target);
+        if (up < 0 || up > 2) up = natural_up(figure[s], scene[s].size);
+        camera->distance = view->orthographic ? 0 : 4.6 * scene[s].size;
+        camera_aim(camera, view, up);
+        camera_fit(camera, figure[s], &frame[s]);
+        scale = fmin(scale, camera->scale);
+    }
+    for (int s = 0; s < scenes; s++) camera_shrink(&scene[s].camera, &frame[s], scale);
+}
+
+ves_status ves_scenes_build(ves_scene *scene, const ves_figure *const *figure, int scenes,
+                            const ves_view *view, const ves_frame *frame, ves_arena *arena)
+{
+    int quantity = ves_scene_quantity(view->colour);
+    cameras_set(scene, figure, scenes, view, frame);
+    if (quantity > 0) VES_TRY(colours_find(scene, figure, scenes, quantity, arena));
+    for (int s = 0; s < scenes; s++) VES_TRY(pieces_make(&scene[s], figure[s], view, frame[s].cell, arena));
+    return VES_OK;
+}
+
+ves_status ves_scene_build(ves_scene *scene, const ves_figure *figure, const ves_view *view,
+                           const ves_frame *frame, ves_arena *arena)
+{
+    return ves_scenes_build(scene, &figure, 1, view, frame, arena);
 }

@@ -65,6 +65,10 @@ typedef struct ves_frame {
 ves_status ves_scene_build(ves_scene *scene, const ves_figure *figure, const ves_view *view,
                            const ves_frame *frame, ves_arena *arena);
 
+/* Several, each in its frame: seen from one side, to one scale, in the same colours. */
+ves_status ves_scenes_build(ves_scene *scene, const ves_figure *const *figure, int scenes,
+                            const ves_view *view, const ves_frame *frame, ves_arena *arena);
+
 /* Index of "patch", "H", "K", "k1", "k2", or -1. */
 int ves_scene_quantity(const char *word);
 

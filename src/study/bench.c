@@ -10,6 +10,7 @@
 #include "study/bench_about.h"
 #include "study/bench_charts.h"
 #include "study/bench_folder.h"
+#include "study/bench_gallery.h"
 #include "study/bench_polish.h"
 #include "study/folder.h"
 #include "study/optima.h"
@@ -218,7 +219,9 @@ static ves_status count_up(bench *b)
         ves_status status = ves_optima_find(&b->ring[k], k, shown, &b->arena);
         if (status != VES_OK) return ves_diag_fail(b->diag, status);
     }
-    return b->files.folder ? ves_bench_charts_write(shown, &input, b->diag) : VES_OK;
+    if (!b->files.folder) return VES_OK;
+    VES_TRY(ves_bench_charts_write(shown, &input, b->diag));
+    return ves_bench_gallery_write(shown, b->ring, b->diag);
 }
 
 /* All methods on all problems, then once more: what is broken off can be compared. Ranks take turns. */

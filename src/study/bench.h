@@ -5,7 +5,7 @@
  *     runs.jsonl      one line a run, as they end; in the end in the order of the suite (of another rank of
  *                     mpirun runs.RANK.jsonl, until the end)
  *     times.jsonl     what clocks say of each        report.json  what they come to
- *     ecdf.png, profile-*.png, convergence/PROBLEM.png
+ *     ecdf.png, profile-*.png, convergence/PROBLEM.png, optima/PROBLEM.png (of problem files)
  *     journals/NNNNN.jsonl   the improvements of run NNNNN: [cost, value, violation] */
 #ifndef VES_STUDY_BENCH_H
 #define VES_STUDY_BENCH_H

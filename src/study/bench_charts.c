@@ -1,6 +1,5 @@
 #include "study/bench_charts.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -96,19 +95,11 @@ static ves_status profile(charts *c, double tau, const char *name)
     return write(c, &chart, name);
 }
 
-/* convergence/rot_rastrigin-10.png */
-static void chart_name(const char *problem, char name[NAME])
-{
-    snprintf(name, NAME, "convergence/%.150s.png", problem);
-    for (char *at = name + strlen("convergence/"); *at; at++)
-        if (!isalnum((unsigned char)*at) && !strchr("._-", *at)) *at = '-';
-}
-
 static ves_status convergence(charts *c, int bout)
 {
     const ves_suite *s = c->bench->suite;
     ves_profile_band *band = ves_arena_take(&c->arena, (size_t)s->entrants, sizeof *band);
-    char name[NAME];
+    char *path;
     if (!band) return ves_diag_fail(c->diag, VES_MEMORY);
     double high = 10 * least, low = INFINITY;
     for (int e = 0; e < s->entrants; e++) {
@@ -128,7 +119,8 @@ static ves_status convergence(charts *c, int bout)
                                       .high = band[e].high,
                                       .stairs = true};
     }
-    chart_name(s->bout[bout].name, name);
+    VES_TRY(
+        ves_folder_picture(c->bench->folder, "convergence", s->bout[bout].name, &c->arena, &path, c->diag));
     double bottom = pow(10, floor(log10(fmin(low, high / 10)))), top = pow(10, ceil(log10(high)));
     const ves_chart chart = {
         .title = s->bout[bout].name,
@@ -137,7 +129,7 @@ static ves_status convergence(charts *c, int bout)
               top, true},
         .lines = s->entrants,
         .line = c->line};
-    return write(c, &chart, name);
+    return ves_chart_write(&chart, path, c->diag);
 }
 
 static ves_status all(charts *c)
@@ -148,9 +140,6 @@ static ves_status all(charts *c)
     } profiles[] = {{1e-1, "profile-1e-1.png"}, {1e-3, "profile-1e-3.png"}, {1e-5, "profile-1e-5.png"}};
     VES_TRY(ecdf(c));
     for (int k = 0; k < 3; k++) VES_TRY(profile(c, profiles[k].tau, profiles[k].name));
-    char *folder = ves_folder_path(c->bench->folder, "convergence", &c->arena);
-    if (!folder) return ves_diag_fail(c->diag, VES_MEMORY);
-    VES_TRY(ves_folder_open(folder, &c->arena, c->diag));
     for (int p = 0; p < c->bench->suite->bouts; p++) VES_TRY(convergence(c, p));
     return VES_OK;
 }

@@ -117,6 +117,19 @@ char *ves_folder_path(const char *folder, const char *name, ves_arena *arena)
     return ves_arena_format(arena, length && folder[length - 1] == '/' ? "%s%s" : "%s/%s", folder, name);
 }
 
+ves_status ves_folder_picture(const char *folder, const char *kind, const char *name, ves_arena *arena,
+                              char **path, ves_diag *diag)
+{
+    char *within = ves_folder_path(folder, kind, arena), *file = ves_arena_format(arena, "%.150s.png", name);
+    *path = NULL;
+    if (!within || !file) return ves_diag_fail(diag, VES_MEMORY);
+    for (char *at = file; *at; at++)
+        if (!isalnum((unsigned char)*at) && !strchr("._-", *at)) *at = '-';
+    VES_TRY(ves_folder_open(within, arena, diag));
+    *path = ves_folder_path(within, file, arena);
+    return *path ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
+}
+
 char *ves_folder_free(const char *stem, const char *ending, ves_arena *arena)
 {
     char *path = ves_arena_format(arena, "%s.%s", stem, ending);
@@ -128,10 +141,10 @@ char *ves_folder_free(const char *stem, const char *ending, ves_arena *arena)
 /* .NAME.PID-TRY.ENDING, of a file NAME that a run writes. */
 static bool is_unfinished(const char *entry)
 {
-    static const char *const names[] = {"problem.yaml", "run.json",  "result.json",  "times.json",
-                                        "start.vtp",    "best.vtp",  "best.png",     "log.txt",
-                                        "sweep.json",   "sweep.csv", "points.jsonl", "times.jsonl",
-                                        "sweep.png",    "shapes.pvd"};
+    static const char *const names[] = {"problem.yaml", "run.json",      "result.json", "times.json",
+                                        "start.vtp",    "best.vtp",      "best.png",    "log.txt",
+                                        "optima.png",   "annealing.png", "sweep.json",  "sweep.csv",
+                                        "points.jsonl", "times.jsonl",   "sweep.png",   "shapes.pvd"};
     size_t digits = *entry == '.' ? strspn(entry + 1, "0123456789") : 0;
     if (digits && !strncmp(entry + 1 + digits, ".vtp.", 5)) return true; /* a shape of a sweep */
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) {

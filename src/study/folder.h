@@ -19,6 +19,10 @@ ves_status ves_folder_open(const char *path, ves_arena *arena, ves_diag *diag);
 /* FOLDER/NAME; NULL when out of memory. */
 char *ves_folder_path(const char *folder, const char *name, ves_arena *arena);
 
+/* FOLDER/KIND/NAME.png; the folder of its kind is made. What a file's name should not hold becomes '-' in it. */
+ves_status ves_folder_picture(const char *folder, const char *kind, const char *name, ves_arena *arena,
+                              char **path, ves_diag *diag);
+
 /* Removes what a killed process left unfinished in a run folder (output/file.h). Nobody else may work there. */
 void ves_folder_tidy(const char *path, ves_arena *arena);
 

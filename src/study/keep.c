@@ -1,11 +1,13 @@
 #include "study/keep.h"
 
 #include <string.h>
+#include <unistd.h>
 
 #include "base/diag.h"
 #include "output/file.h"
 #include "output/output.h"
 #include "study/folder.h"
+#include "study/gallery.h"
 #include "study/result.h"
 
 enum { MESSAGE = 4096 };
@@ -123,6 +125,35 @@ static ves_status figure_write(const keeper *k, const ves_design *design, const 
     return status;
 }
 
+/* As the screen lists them. */
+static ves_status optimum_show(const keeper *k, int index, ves_shown_design *design)
+{
+    const ves_optimum *o = &k->run->optimum[index];
+    const ves_shown *shown = &k->run->problem->objective_shown;
+    const char **note = ves_arena_take(k->arena, 2, sizeof *note);
+    char *value = ves_arena_format(k->arena, "%#.9g%s%s", o->value / shown->factor, *shown->unit ? " " : "",
+                                   shown->unit);
+    char *found = ves_arena_format(k->arena, o->hits == 1 ? "found once" : "found %d times", o->hits);
+    if (!note || !value || !found) return VES_MEMORY;
+    note[0] = found, note[1] = "a saddle";
+    *design = (ves_shown_design){.x = o->x, .caption = value, .note = note, .notes = o->saddle ? 2 : 1};
+    return VES_OK;
+}
+
+/* Several only: one is best.png. A run that was interrupted may have seen more, and left a picture. */
+static ves_status optima_write(const keeper *k)
+{
+    const ves_run *run = k->run;
+    char *path = ves_folder_path(run->folder, "optima.png", k->arena);
+    ves_shown_design *design = ves_arena_take(k->arena, (size_t)run->optima, sizeof *design);
+    if (!path || !design) return ves_diag_fail(k->diag, VES_MEMORY);
+    unlink(path);
+    if (run->optima < 2) return VES_OK;
+    for (int i = 0; i < run->optima; i++)
+        if (optimum_show(k, i, &design[i]) != VES_OK) return ves_diag_fail(k->diag, VES_MEMORY);
+    return ves_designs_draw(k->plan, run->problem->title, design, run->optima, path, k->diag);
+}
+
 ves_status ves_keep_result(const ves_run *run, ves_plan *plan, ves_arena *arena, ves_diag *diag)
 {
     keeper k = {run, plan, arena, diag};
@@ -131,6 +162,7 @@ ves_status ves_keep_result(const ves_run *run, ves_plan *plan, ves_arena *arena,
         text_write(&k, "times.json", "json", fill_times),
         figure_write(&k, &run->start, "start.vtp", false),
         run->any ? figure_write(&k, &run->best, "best.vtp", true) : VES_OK,
+        optima_write(&k),
         VES_OK,
     };
     enum { LOG = sizeof status / sizeof *status - 1 };

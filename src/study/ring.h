@@ -37,4 +37,7 @@ typedef struct ves_pose {
 } ves_pose;
 ves_status ves_ring_pose(ves_ring *ring, int worker, int seed, ves_arena *arena, ves_pose *pose);
 
+/* FILE, PLUGIN: a point of the unit box in the units of the problem. */
+void ves_ring_place(const ves_pose *pose, const double *u, double *x);
+
 #endif

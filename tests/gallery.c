@@ -1,0 +1,134 @@
+/* Pictures of several things on one sheet: shapes side by side, charts below each other. */
+#include <criterion/criterion.h>
+
+#pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */
+
+#include "files.h"
+#include "fonts.h"
+#include "output/chart.h"
+#include "output/gallery.h"
+#include "output/scene.h"
+#include "shapes.h"
+
+enum { NOTES = 40 };
+
+static const char *note[NOTES];
+
+static unsigned big_endian(const char *bytes)
+{
+    const unsigned char *b = (const unsigned char *)bytes;
+    return (unsigned)b[0] << 24 | (unsigned)b[1] << 16 | (unsigned)b[2] << 8 | b[3];
+}
+
+/* A PNG, and how large. */
+static void size_of(const char *path, unsigned *width, unsigned *height)
+{
+    size_t size;
+    char *data = slurp_bytes(path, &size);
+    cr_assert(size > 100 && memcmp(data, "\x89PNG\r\n\x1a\n", 8) == 0 && !memcmp(data + 12, "IHDR", 4));
+    cr_assert(memcmp(data + size - 8, "IEND", 4) == 0);
+    *width = big_endian(data + 16), *height = big_endian(data + 20);
+    free(data);
+}
+
+static void same(const char *a, const char *b)
+{
+    size_t one, two;
+    char *x = slurp_bytes(a, &one), *y = slurp_bytes(b, &two);
+    cr_expect(one == two && !memcmp(x, y, one), "%s and %s differ", a, b);
+    free(x);
+    free(y);
+}
+
+static ves_gallery hang(ves_gallery_item *item, const ves_figure *figure, int items)
+{
+    for (int k = 0; k < NOTES; k++)
+        note[k] =
+            k == 3 ? "a_method_with_a_name_that_is_longer_than_its_column_is_wide 7/9" : "auto_values 12/15";
+    for (int k = 0; k < items; k++)
+        item[k] = (ves_gallery_item){&figure[k % 2], "12.1579981", note, k == 0 ? 0 : k == 1 ? 1 : NOTES};
+    return (ves_gallery){"A title \xff that is no text", items, item};
+}
+
+Test(gallery, a_sheet_has_room_for_all)
+{
+    static const unsigned size[][3] = {{1, 720, 430},  {2, 760, 430},   {3, 1060, 430},  {4, 760, 730},
+                                       {5, 1060, 730}, {9, 1060, 1030}, {12, 1360, 1030}};
+    double torus[] = {1, 0.4};
+    ves_figure figure[2];
+    ves_gallery_item item[VES_GALLERY_MOST];
+    shape_sphere(&figure[0], 1, 6, 16);
+    shape_ring(&figure[1], shape_torus, torus, 12, 8);
+    for (size_t k = 0; k < sizeof size / sizeof *size; k++) {
+        unsigned width, height;
+        const ves_gallery gallery = hang(item, figure, (int)size[k][0]);
+        cr_assert(ves_gallery_write(&gallery, path_of("a.png"), NULL) == VES_OK);
+        cr_assert(ves_gallery_write(&gallery, path_of("b.png"), NULL) == VES_OK);
+        size_of(path_of("a.png"), &width, &height);
+        cr_expect(width == size[k][1] && height == size[k][2], "%u: %u x %u", size[k][0], width, height);
+        same(path_of("a.png"), path_of("b.png"));
+    }
+    const ves_gallery gallery = hang(item, figure, 2);
+    cr_expect(ves_gallery_write(&gallery, path_of("a.svg"), NULL) == VES_OK);
+    cr_expect(ves_gallery_write(&gallery, path_of("a.pdf"), NULL) == VES_OK);
+    cr_expect(ves_gallery_write(&gallery, path_of("nowhere/a.png"), NULL) == VES_IO);
+    cr_expect(ves_gallery_write(&gallery, path_of("a.gif"), NULL) == VES_NAME);
+    for (int k = 0; k < 2; k++) shape_end(&figure[k]);
+    clean();
+    check_nothing_left();
+}
+
+/* To one scale, each in the middle of its frame; in the same colours; from one side. */
+Test(gallery, shapes_can_be_compared)
+{
+    const ves_frame frame[2] = {{0, 0, 100, 100, 0}, {200, 0, 300, 100, 0}};
+    ves_view view = ves_view_default();
+    ves_figure figure[2];
+    ves_scene scene[2];
+    ves_arena arena = {0};
+    double low[2], high[2];
+    shape_sphere(&figure[0], 1, 12, 24);
+    shape_sphere(&figure[1], 0.5, 12, 24);
+    const ves_figure *both[] = {&figure[0], &figure[1]};
+    cr_assert(ves_scenes_build(scene, both, 2, &view, frame, &arena) == VES_OK);
+    for (int s = 0; s < 2; s++) {
+        low[s] = HUGE_VAL, high[s] = -HUGE_VAL;
+        for (int k = 0; k < scene[s].pieces; k++)
+            for (int c = 0; c < scene[s].piece[k].corners; c++) {
+                low[s] = fmin(low[s], scene[s].piece[k].x[c]);
+                high[s] = fmax(high[s], scene[s].piece[k].x[c]);
+            }
+    }
+    double ratio = (high[1] - low[1]) / (high[0] - low[0]);
+    cr_expect(fabs(ratio - 0.5) < 1e-5, "single precision: %g", ratio);
+    cr_expect(fabs(low[0] + high[0] - 100) < 1e-3 && fabs(low[1] + high[1] - 500) < 1e-3, "in the middle");
+    cr_expect(scene[0].colours.lo == scene[1].colours.lo && scene[0].colours.hi == scene[1].colours.hi);
+    cr_expect(scene[0].colours.hi - scene[0].colours.lo > 0.9, "H is 1 and 2");
+    cr_expect(memcmp(scene[0].camera.up, scene[1].camera.up, sizeof scene[0].camera.up) == 0);
+    ves_arena_destroy(&arena);
+    for (int k = 0; k < 2; k++) shape_end(&figure[k]);
+}
+
+/* Logarithmic axes of less than a decade have ticks as well; guides beyond the axis are left out. */
+Test(gallery, charts_stand_below_each_other)
+{
+    static const double x[] = {0.02, 0.025, 0.05}, y[] = {0, 1, 0.5};
+    static const double low[] = {1e-9, 0.02, 0.021, 3e-7, 1}, high[] = {10, 0.05, 0.029, 8e-7, 40};
+    const ves_chart_guide guide[] = {
+        {"here", 0.03, true}, {"no number", NAN, false}, {NULL, 0.02, true}, {"beyond", 1e9, false}};
+    const ves_chart_line line = {.name = "a", .count = 3, .x = x, .y = y, .mark = VES_MARK_SPECK};
+    for (size_t k = 0; k < sizeof low / sizeof *low; k++) {
+        unsigned width, height;
+        const ves_chart chart[] = {
+            {"above", {NULL, low[k], high[k], true}, {"y", 0, 1, false}, 1, &line, 4, guide, 300},
+            {NULL, {"x", low[k], high[k], true}, {"y", 0, 1, false}, 1, &line, 4, guide, 350}};
+        cr_assert(ves_charts_write(chart, 2, path_of("a.png"), NULL) == VES_OK);
+        size_of(path_of("a.png"), &width, &height);
+        cr_expect(width == 960 && height == 650, "%u x %u", width, height);
+        cr_assert(ves_chart_write(&chart[1], path_of("a.png"), NULL) == VES_OK);
+        size_of(path_of("a.png"), &width, &height);
+        cr_expect(width == 960 && height == 350, "%u x %u", width, height);
+    }
+    clean();
+    check_nothing_left();
+}
