@@ -402,6 +402,7 @@ static void effort(const ves_run *run, app_table *t)
 /* One line each: how it was, and what it says of itself. */
 static void annealings(const ves_run *run, app_table *t)
 {
+    const ves_shown *shown = &run->problem->objective_shown;
     for (int k = 0; k < run->annealings; k++) {
         const ves_annealing_report *r = &run->annealing[k];
         char text[300], legs[64];
@@ -413,7 +414,8 @@ static void annealings(const ves_run *run, app_table *t)
             at += length > 0 ? (size_t)length : 0;
         }
         app_table_cell(t, k ? "" : "annealed");
-        app_table_cell(t, "T %.2g to %.2g in %s; accepted: %s", r->c0, r->c,
+        app_table_cell(t, "T %.2g to %.2g%s%s in %s; accepted: %s", r->c0 / shown->factor,
+                       r->c / shown->factor, *shown->unit ? " " : "", shown->unit,
                        app_screen_plural(r->legs, "leg", "legs", legs), text);
         if (r->swaps) {
             app_table_cell(t, "%s", "");

@@ -207,16 +207,16 @@ static void tell_stop(ves_annealing *a)
         ves_session_stop(session, VES_ENDED_DONE,
                          "anneal: frozen, nothing was accepted at the last %d temperatures", QUIET);
     else if (cooling->cold && cools)
-        ves_session_stop(session, VES_ENDED_DONE, "anneal: frozen, the temperature fell to %.3g",
-                         a->report.c);
+        ves_session_stop(session, VES_ENDED_DONE, "anneal: frozen, the temperature fell to %.3g of the first",
+                         a->report.c / cooling->c0);
     else
         ves_session_stop(session, VES_ENDED_BUDGET, "anneal: its budget of %ld evaluation%s is spent",
                          a->budget, a->budget == 1 ? "" : "s");
     if (cools && !cooling->cold && !a->frozen)
         ves_session_note(
             session,
-            "the annealing budget was too short: the temperature fell from %.3g to %.3g only, not to %.3g",
-            cooling->c0, a->report.c, cooling->c_end);
+            "the annealing budget was too short: the temperature fell to %.3g of the first only, not to %.3g",
+            a->report.c / cooling->c0, cooling->c_end / cooling->c0);
 }
 
 /* What was stopped on its way ends where it is. */

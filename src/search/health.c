@@ -258,8 +258,9 @@ static const char *sentence(const ves_annealing *a)
                                 "apart; more evaluations, tempering or a polish would help",
                                 100 * r->apart);
     case VES_HEALTH_SHORT:
-        return ves_arena_format(arena, "budget too short: the temperature fell to %.3g of %.3g only", r->c,
-                                a->cooling.c_end);
+        return ves_arena_format(
+            arena, "budget too short: the temperature fell to %.3g of the first only, not to %.3g",
+            r->c / a->cooling.c0, a->cooling.c_end / a->cooling.c0);
     case VES_HEALTH_SAMPLED:
         return "sampled: the temperature was not lowered";
     default:
