@@ -91,9 +91,9 @@ static ves_status whole(void)
 /* The whole of `vesica run`: plans for two threads, the search, the folder with its files and the picture. */
 static ves_status run(void)
 {
-    static const char *const file[] = {"problem.yaml", "result.json", "times.json",   "trace.jsonl",
-                                       "log.txt",      "best.vtp",    "start.vtp",    "best.png",
-                                       "run.json",     "journal",     "journal.part", "lock"};
+    static const char *const file[] = {"problem.yaml", "result.json", "times.json", "trace.jsonl",  "log.txt",
+                                       "best.vtp",     "start.vtp",   "best.png",   "run.json",     "journal",
+                                       "journal.part", "lock",        "optima.png", "annealing.png"};
     char folder[300], path[400];
     snprintf(folder, sizeof folder, "%s/test_allocation.%ld", VESICA_BUILD, (long)getpid());
     ves_problem *problem = NULL;

@@ -83,3 +83,18 @@ Test(api_search, choices)
     cr_expect(strcmp(result->annealing[0].schedule, "lam") == 0);
     ves_search_result_destroy(result);
 }
+
+/* One line that is far above the others counts as twice the median; others are of another annealing, or not near. */
+Test(api_search, a_heat_capacity_is_a_mean_of_what_was_seen)
+{
+    const ves_temperature line[] = {{.c = 1, .trials = 10, .variance = 1},
+                                    {.c = 1.25, .trials = 30, .variance = 2 * 1.25 * 1.25},
+                                    {.c = 1.1, .trials = 10, .variance = 100 * 1.1 * 1.1},
+                                    {.c = 1.1, .trials = 0, .variance = 7},
+                                    {.c = 1.1, .trials = 50, .variance = 7, .annealing = 1},
+                                    {.c = 3, .trials = 50, .variance = 9}};
+    double scratch[6];
+    double c = ves_heat_capacity(line, 6, 0, 1.2 / VES_HEAT_REACH, 1.2 * VES_HEAT_REACH, scratch);
+    cr_expect(fabs(c - (10 * 1 + 30 * 2 + 10 * 4) / 50.) < 1e-12, "%.17g", c);
+    cr_expect(ves_heat_capacity(line, 6, 0, 5, 9, scratch) == 0, "none there");
+}

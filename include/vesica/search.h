@@ -248,6 +248,14 @@ typedef struct ves_temperature {
     ves_move_count move[VES_MOVES];
 } ves_temperature;
 
+/* The heat capacity, variance / c^2, of one annealing between two temperatures: the mean of its lines by their trials.
+ * Where a chain falls into another basin for good the variance tells how deep that lies, so no line counts for more
+ * than twice their median. 0: there are none. scratch: [lines]. A `peak` is that of temperatures from c /
+ * VES_HEAT_REACH to c VES_HEAT_REACH. */
+#define VES_HEAT_REACH 1.4
+double ves_heat_capacity(const ves_temperature *line, int lines, int annealing, double low, double high,
+                         double *scratch);
+
 /* What an annealing says of itself. */
 typedef enum ves_health {
     VES_HEALTH_FROZEN,  /* cooled to the end, and the chains agree */

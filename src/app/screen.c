@@ -5,6 +5,7 @@
 #include "app/app.h"
 #include "app/table.h"
 #include "base/vector.h"
+#include "study/annealing.h"
 
 /* A variable this near to its limit, relative to its range, lies on it. */
 static const double AT_LIMIT = 1e-6;
@@ -466,9 +467,10 @@ static void conclusion(const ves_run *run, FILE *out)
         fprintf(out, "\n  the result %s\n",
                 stopped ? "has not passed its checks" : "did not pass its checks (see above)");
     if (!run->folder) return;
-    fprintf(out, "\n  %s/   %s%sstart.vtp  result.json  %s%slog.txt\n", run->folder,
+    fprintf(out, "\n  %s/   %s%s%sstart.vtp  result.json  %s%slog.txt\n", run->folder,
             run->any ? "best.vtp  best.png  " : "", run->optima > 1 ? "optima.png  " : "",
-            run->searched ? "trace.jsonl  " : "", run->journaled ? "journal  " : "");
+            ves_annealing_seen(run) ? "annealing.png  " : "", run->searched ? "trace.jsonl  " : "",
+            run->journaled ? "journal  " : "");
     if (!run->any) return;
     fprintf(out, "  next: %s export %s --to stl,obj", app_called(), run->folder);
     plugins(run->problem, out);

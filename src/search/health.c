@@ -9,9 +9,9 @@
  * energy is frozen when this part of its fall is left. */
 static const double little = 0.01;
 
-/* Heat capacities are smoothed over a factor of so much both ways; a line counts as so many times the median at most;
- * and a peak is so many times as high as where all is frozen. */
-static const double reach = 1.4, stray = 2, outstanding = 1.5;
+/* Of heat capacities a line counts as so many times the median at most; and a peak is so many times as high as where
+ * all is frozen. */
+static const double stray = 2, outstanding = 1.5;
 
 bool ves_annealing_enlist(ves_annealing *a)
 {
@@ -161,17 +161,15 @@ static double freezing_of(const ves_annealing *a, int leg, double *fall)
     return c;
 }
 
-/* Of the lines between two temperatures, of all legs. Where a chain falls into another basin for good its variance
- * tells how deep that lies: so no line counts for more than some times the median. */
-static double capacity(const ves_annealing *a, double low, double high, double *scratch)
+double ves_heat_capacity(const ves_temperature *line, int lines, int annealing, double low, double high,
+                         double *scratch)
 {
-    const ves_session *session = a->session;
     double most = HUGE_VAL, sum = 0, trials = 0;
     for (int pass = 0; pass < 2; pass++) {
         int count = 0;
-        for (int k = 0; k < session->temperatures; k++) {
-            const ves_temperature *t = &session->temperature_log[k];
-            if (t->annealing != a->index || !t->trials || t->c < low || t->c > high) continue;
+        for (int k = 0; k < lines; k++) {
+            const ves_temperature *t = &line[k];
+            if (t->annealing != annealing || !t->trials || t->c < low || t->c > high) continue;
             scratch[count] = t->variance / (t->c * t->c);
             if (pass) sum += (double)t->trials * fmin(scratch[count], most), trials += (double)t->trials;
             count++;
@@ -179,6 +177,12 @@ static double capacity(const ves_annealing *a, double low, double high, double *
         if (!pass) most = stray * ves_median_above(scratch, count, 0);
     }
     return trials > 0 ? sum / trials : 0;
+}
+
+static double capacity(const ves_annealing *a, double low, double high, double *scratch)
+{
+    const ves_session *session = a->session;
+    return ves_heat_capacity(session->temperature_log, session->temperatures, a->index, low, high, scratch);
 }
 
 /* The first leg goes through all temperatures. Where chains have frozen, heat capacities are those of the bottoms of
@@ -193,7 +197,7 @@ ves_status ves_annealing_peak(const ves_annealing *a, double *peak)
     double most = outstanding * capacity(a, 0, frozen, scratch);
     *peak = 0;
     for (int k = -1; (t = line_after(a, 0, &k)) && t->c > frozen;) {
-        double here = capacity(a, t->c / reach, t->c * reach, scratch);
+        double here = capacity(a, t->c / VES_HEAT_REACH, t->c * VES_HEAT_REACH, scratch);
         if (here > most) most = here, *peak = t->c;
     }
     return VES_OK;

@@ -6,6 +6,7 @@
 #include "base/diag.h"
 #include "output/file.h"
 #include "output/output.h"
+#include "study/annealing.h"
 #include "study/folder.h"
 #include "study/gallery.h"
 #include "study/result.h"
@@ -154,6 +155,13 @@ static ves_status optima_write(const keeper *k)
     return ves_designs_draw(k->plan, run->problem->title, design, run->optima, path, k->diag);
 }
 
+static ves_status annealing_write(const keeper *k)
+{
+    char *path = ves_folder_path(k->run->folder, "annealing.png", k->arena);
+    if (!path) return ves_diag_fail(k->diag, VES_MEMORY);
+    return ves_annealing_seen(k->run) ? ves_annealing_draw(k->run, path, k->arena, k->diag) : VES_OK;
+}
+
 ves_status ves_keep_result(const ves_run *run, ves_plan *plan, ves_arena *arena, ves_diag *diag)
 {
     keeper k = {run, plan, arena, diag};
@@ -163,6 +171,7 @@ ves_status ves_keep_result(const ves_run *run, ves_plan *plan, ves_arena *arena,
         figure_write(&k, &run->start, "start.vtp", false),
         run->any ? figure_write(&k, &run->best, "best.vtp", true) : VES_OK,
         optima_write(&k),
+        annealing_write(&k),
         VES_OK,
     };
     enum { LOG = sizeof status / sizeof *status - 1 };

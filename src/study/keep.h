@@ -7,7 +7,7 @@
 /* problem.yaml, at the beginning. */
 ves_status ves_keep_problem(const ves_run *run, ves_arena *arena, ves_diag *diag);
 
-/* start.vtp, best.vtp, best.png, optima.png, result.json, times.json, log.txt, at the end. Goes on after a file that
+/* start.vtp, best.vtp, best.png, optima.png, annealing.png, result.json, times.json, log.txt, at the end. Goes on after a file that
  * cannot be written; returns the first failure. */
 ves_status ves_keep_result(const ves_run *run, ves_plan *plan, ves_arena *arena, ves_diag *diag);
 
