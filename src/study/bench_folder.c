@@ -324,10 +324,13 @@ ves_status ves_bench_files_gather(ves_bench_files *files, const ves_bench *bench
 
 static void tidy(const ves_bench_files *files)
 {
+    static const char *const within[] = {"journals", "convergence", "optima"};
     ves_arena arena = {0};
-    char *journals = ves_folder_path(files->folder, "journals", &arena);
     ves_folder_tidy(files->folder, &arena);
-    if (journals) ves_folder_tidy(journals, &arena);
+    for (size_t k = 0; k < sizeof within / sizeof *within; k++) {
+        char *folder = ves_folder_path(files->folder, within[k], &arena);
+        if (folder) ves_folder_tidy(folder, &arena);
+    }
     ves_arena_destroy(&arena);
 }
 

@@ -138,22 +138,22 @@ char *ves_folder_free(const char *stem, const char *ending, ves_arena *arena)
     return path;
 }
 
-/* .NAME.PID-TRY.ENDING, of a file NAME that a run writes. */
+/* Where the digits begin that stand before `end`; NULL: none do. */
+static const char *digits_before(const char *text, const char *end)
+{
+    const char *at = end;
+    while (at > text && isdigit((unsigned char)at[-1])) at--;
+    return at < end ? at : NULL;
+}
+
+/* .NAME.PID-TRY.ENDING, of any file that was to appear whole. */
 static bool is_unfinished(const char *entry)
 {
-    static const char *const names[] = {"problem.yaml", "run.json",      "result.json", "times.json",
-                                        "start.vtp",    "best.vtp",      "best.png",    "log.txt",
-                                        "optima.png",   "annealing.png", "sweep.json",  "sweep.csv",
-                                        "points.jsonl", "times.jsonl",   "sweep.png",   "shapes.pvd"};
-    size_t digits = *entry == '.' ? strspn(entry + 1, "0123456789") : 0;
-    if (digits && !strncmp(entry + 1 + digits, ".vtp.", 5)) return true; /* a shape of a sweep */
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
-        size_t length = strlen(names[k]);
-        if (*entry == '.' && !strncmp(entry + 1, names[k], length) && entry[length + 1] == '.' &&
-            isdigit((unsigned char)entry[length + 2]))
-            return true;
-    }
-    return false;
+    const char *ending = *entry == '.' ? strrchr(entry, '.') : NULL;
+    const char *attempt = ending ? digits_before(entry, ending) : NULL;
+    if (!attempt || attempt[-1] != '-') return false;
+    const char *pid = digits_before(entry, attempt - 1);
+    return pid && pid[-1] == '.' && pid - 1 > entry;
 }
 
 void ves_folder_tidy(const char *path, ves_arena *arena)
