@@ -113,12 +113,12 @@ Test(suite_meter, ends_at_the_target)
 Test(suite_suite, runs_are_numbered_by_methods_first)
 {
     const ves_suite suite = {
-        .entrants = 2, .bouts = 3, .seeds = 4, .per_dimension = 1e4, .most = 2e5, .seed = 1};
+        .methods = 2, .problems = 3, .seeds = 4, .per_dimension = 1e4, .most = 2e5, .seed = 1};
     cr_expect(ves_suite_runs(&suite) == 24);
     ves_suite_place p = ves_suite_run(&suite, 12 + 2 * 4 + 3);
-    cr_expect(p.entrant == 1 && p.bout == 2 && p.seed == 3);
+    cr_expect(p.method == 1 && p.problem == 2 && p.seed == 3);
     cr_expect(ves_suite_budget(&suite, 5) == 5e4 && ves_suite_budget(&suite, 40) == 2e5);
-    const ves_bout a = {.name = "a"}, b = {.name = "b"}, file = {.kind = VES_BOUT_FILE};
+    const ves_suite_problem a = {.name = "a"}, b = {.name = "b"}, file = {.kind = VES_SUITE_FILE};
     cr_expect(ves_suite_value(&a, -15, 0.1) == -13.5 && ves_suite_value(&a, 0.5, 0.1) == 0.6);
     cr_expect(fabs(ves_suite_value(&file, 0.01, 0.1) - 0.011) < 1e-16 &&
               ves_suite_value(&file, 0, 0.1) == 0.1);

@@ -7,12 +7,12 @@
 
 enum { METHODS = 2, PROBLEMS = 2, RUNS = 4 };
 
-static const ves_bout bouts[PROBLEMS] = {{.name = "known"}, {.name = "unknown"}};
-static const ves_entrant entrants[METHODS] = {{.name = "quick"}, {.name = "slow"}};
-static const ves_suite suite = {.bouts = PROBLEMS,
-                                .entrants = METHODS,
-                                .bout = bouts,
-                                .entrant = entrants,
+static const ves_suite_problem problems[PROBLEMS] = {{.name = "known"}, {.name = "unknown"}};
+static const ves_method methods[METHODS] = {{.name = "quick"}, {.name = "slow"}};
+static const ves_suite suite = {.problems = PROBLEMS,
+                                .methods = METHODS,
+                                .problem = problems,
+                                .method = methods,
                                 .seeds = RUNS,
                                 .seed = 1,
                                 .per_dimension = 50,
@@ -69,7 +69,7 @@ Test(suite_tally, scores, .init = fill)
     cr_assert(ves_tally_init(&input, &t));
     cr_expect(t.reference[0].known && !t.reference[1].known);
     near(t.reference[1].value, 7.0005, "reference");
-    cr_expect(t.reference[1].entrant == 0 && t.reference[1].seed == 0, "the first of equals");
+    cr_expect(t.reference[1].method == 0 && t.reference[1].seed == 0, "the first of equals");
     const ves_score *q = &t.score[0], *s = &t.score[2];
     cr_expect(q->hits[0] == 4 && q->hits[1] == 3 && q->hits[2] == 3 && q->runs == 4 && q->feasible == 4);
     near(q->ert[0].value, (10 + 11 + 12 + 13) / 4.0, "ert of the first target");
@@ -96,8 +96,9 @@ Test(suite_tally, scores, .init = fill)
     cr_expect(isnan(t.pair[1].by_problem), "two problems say nothing about others");
     cr_expect(ves_tally_finding(&t.pair[1]) == VES_FINDING_FIRST &&
               ves_tally_finding(&t.pair[2]) == VES_FINDING_SECOND);
-    near(ves_tally_dearness(&suite, &bouts[0], &outcome[0], 0), (log10(10) + 2 * log10(20)) / 3, "dearness");
-    near(ves_tally_dearness(&suite, &bouts[0], &outcome[8], 0), 3, "ten budgets");
+    near(ves_tally_dearness(&suite, &problems[0], &outcome[0], 0), (log10(10) + 2 * log10(20)) / 3,
+         "dearness");
+    near(ves_tally_dearness(&suite, &problems[0], &outcome[8], 0), 3, "ten budgets");
     ves_tally_destroy(&t);
 }
 
@@ -138,13 +139,13 @@ Test(suite_tally, who_fails_pays, .init = fill)
 Test(suite_tally, problems_are_what_others_are_inferred_from)
 {
     enum { MANY = 6 };
-    static ves_bout bout[MANY];
+    static ves_suite_problem problem[MANY];
     static ves_step step[2][3];
     static ves_outcome run[2 * MANY * 2];
     double known[MANY] = {0};
     int dimension[MANY];
     ves_suite many = suite;
-    many.bouts = MANY, many.bout = bout, many.seeds = 2;
+    many.problems = MANY, many.problem = problem, many.seeds = 2;
     for (int e = 0; e < 2; e++) step[e][0] = (ves_step){10 + e, 0, 0};
     for (int k = 0; k < 2 * MANY * 2; k++)
         run[k] = (ves_outcome){.done = true,
@@ -154,7 +155,7 @@ Test(suite_tally, problems_are_what_others_are_inferred_from)
                                .evaluations = 20,
                                .steps = 1,
                                .step = step[k / (MANY * 2)]};
-    for (int p = 0; p < MANY; p++) bout[p].name = "a", dimension[p] = 2;
+    for (int p = 0; p < MANY; p++) problem[p].name = "a", dimension[p] = 2;
     const ves_tally_input in = {.suite = &many, .outcome = run, .optimum = known, .n = dimension};
     ves_tally t;
     cr_assert(ves_tally_init(&in, &t));
@@ -173,7 +174,7 @@ Test(suite_tally, what_the_tolerance_is_worth_is_no_reference, .init = fill)
     for (int k = 0; k < RUNS; k++) outcome[RUNS + k].violation = 0.9;
     cr_assert(ves_tally_init(&with, &t));
     near(t.reference[1].value, 7.0007, "polished");
-    cr_expect(t.reference[1].polished && t.reference[1].entrant == 0);
+    cr_expect(t.reference[1].polished && t.reference[1].method == 0);
     ves_tally_destroy(&t);
     outcome[RUNS + 2].violation = 1e-4;
     cr_assert(ves_tally_init(&with, &t));

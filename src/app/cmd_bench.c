@@ -17,8 +17,8 @@ static void begun(void *data, const ves_bench *bench)
     char p[64], m[64], r[64];
     app_say(l->a);
     fprintf(stderr, "%s  %s\n  %s, %s, %s of each, %d %s\n", s->name, s->title,
-            app_screen_plural(s->bouts, "problem", "problems", p),
-            app_screen_plural(s->entrants, "method", "methods", m),
+            app_screen_plural(s->problems, "problem", "problems", p),
+            app_screen_plural(s->methods, "method", "methods", m),
             app_screen_plural(s->seeds, "run", "runs", r), bench->jobs, bench->jobs == 1 ? "job" : "jobs");
     if (bench->before) fprintf(stderr, "  %d of %d runs are there already\n", bench->before, bench->runs);
     l->spoken = ves_study_clock();
@@ -33,7 +33,7 @@ static void progress(void *data, const ves_bench *bench, int index)
     l->spoken = now;
     ves_suite_place place = ves_suite_run(bench->suite, index);
     fprintf(stderr, "  %d of %d runs, at %s on %s\n", bench->done, bench->runs,
-            bench->suite->entrant[place.entrant].name, bench->suite->bout[place.bout].name);
+            bench->suite->method[place.method].name, bench->suite->problem[place.problem].name);
 }
 
 static bool stopped(void *data)

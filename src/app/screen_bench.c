@@ -39,15 +39,15 @@ static void interval_cell(app_table *t, ves_interval i, const char *(*show)(doub
         app_table_cell(t, "%s", "");
 }
 
-static const ves_score *score_of(const ves_bench *b, int entrant, int bout)
+static const ves_score *score_of(const ves_bench *b, int method, int problem)
 {
-    return &b->tally.score[entrant * b->suite->bouts + bout];
+    return &b->tally.score[method * b->suite->problems + problem];
 }
 
 /* A maximum with its own sign, not that of what is minimised. */
-static double told(const ves_bench *b, int bout, double value)
+static double told(const ves_bench *b, int problem, double value)
 {
-    return b->bout[bout].maximize ? -value : value;
+    return b->problem[problem].maximize ? -value : value;
 }
 
 static void heading(const ves_bench *b, FILE *out)
@@ -56,8 +56,8 @@ static void heading(const ves_bench *b, FILE *out)
     char budget[32], most[32], runs[32], p[64], m[64], r[64];
     fprintf(out, "%s\n\n", s->title);
     fprintf(out, "  %s, %s, %s of each (%s of %d done), vesica %s, %d %s\n",
-            app_screen_plural(s->bouts, "problem", "problems", p),
-            app_screen_plural(s->entrants, "method", "methods", m),
+            app_screen_plural(s->problems, "problem", "problems", p),
+            app_screen_plural(s->methods, "method", "methods", m),
             app_screen_plural(s->seeds, "run", "runs", r), app_screen_thousands(b->done, runs), b->runs,
             VESICA_VERSION, b->jobs, b->jobs == 1 ? "job" : "jobs");
     if (b->done < b->runs) fprintf(out, "  interrupted: what follows is of the runs that are done\n");
@@ -78,11 +78,11 @@ static void references(const ves_bench *b, FILE *out)
                                                       "value, with gradients", NULL};
          *w; w++)
         app_table_cell(&t, "%s", *w);
-    for (int p = 0; p < s->bouts; p++) {
-        const ves_bench_bout *f = &b->bout[p];
+    for (int p = 0; p < s->problems; p++) {
+        const ves_bench_problem *f = &b->problem[p];
         const ves_reference *r = &b->tally.reference[p];
         char a[32], c[32];
-        app_table_cell(&t, "%s", s->bout[p].name);
+        app_table_cell(&t, "%s", s->problem[p].name);
         app_table_cell(&t, "%d", f->n);
         char held[CELL] = "";
         if (f->m) snprintf(held, sizeof held, f->equalities ? "%d, %d ==" : "%d", f->m, f->equalities);
@@ -94,17 +94,17 @@ static void references(const ves_bench *b, FILE *out)
             app_table_cell(&t, "no feasible value was found");
         else
             app_table_cell(&t, "best of all runs%s: %s, run %d", r->polished ? ", polished" : "",
-                           s->entrant[r->entrant].name, r->seed);
+                           s->method[r->method].name, r->seed);
         app_table_cell(&t, "%s%s%s", seconds(f->seconds, a), f->gradients ? ", " : "",
                        f->gradients ? seconds(f->seconds_gradient, c) : "");
     }
     app_table_print(&t, out);
-    for (int p = 0; p < s->bouts; p++) {
+    for (int p = 0; p < s->problems; p++) {
         const ves_reference *r = &b->tally.reference[p];
         if (!isnan(r->below))
             fprintf(out,
                     "  %s: %.9g, which is feasible, is better than the optimum that the suite gives, %.9g\n",
-                    s->bout[p].name, told(b, p, r->below), told(b, p, r->value));
+                    s->problem[p].name, told(b, p, r->below), told(b, p, r->value));
     }
     fputc('\n', out);
 }
@@ -115,15 +115,15 @@ static void matrix(const ves_bench *b, FILE *out)
     const ves_suite *s = b->suite;
     int last = VES_TARGETS - 1;
     fprintf(out, "  runs that met the last target, and the expected cost of meeting it (ERT)\n\n");
-    for (int first = 0; first < s->entrants; first += COLUMNS) {
-        int end = first + COLUMNS < s->entrants ? first + COLUMNS : s->entrants;
+    for (int first = 0; first < s->methods; first += COLUMNS) {
+        int end = first + COLUMNS < s->methods ? first + COLUMNS : s->methods;
         char align[COLUMNS + 2] = "l", text[32];
         memset(align + 1, 'l', (size_t)(end - first));
         app_table t = {.align = align};
         app_table_cell(&t, "problem");
-        for (int e = first; e < end; e++) app_table_cell(&t, "%s", s->entrant[e].name);
-        for (int p = 0; p < s->bouts; p++) {
-            app_table_cell(&t, "%s", s->bout[p].name);
+        for (int e = first; e < end; e++) app_table_cell(&t, "%s", s->method[e].name);
+        for (int p = 0; p < s->problems; p++) {
+            app_table_cell(&t, "%s", s->problem[p].name);
             for (int e = first; e < end; e++) {
                 const ves_score *c = score_of(b, e, p);
                 if (c->runs && c->failed == c->runs)
@@ -152,9 +152,9 @@ static void totals(const ves_bench *b, FILE *out)
     app_table_cell(&t, "feasible");
     app_table_cell(&t, "failed");
     app_table_cell(&t, "own time");
-    for (int e = 0; e < s->entrants; e++) {
+    for (int e = 0; e < s->methods; e++) {
         const ves_total *c = &b->tally.total[e];
-        app_table_cell(&t, "%s", s->entrant[e].name);
+        app_table_cell(&t, "%s", s->method[e].name);
         for (int k = 0; k < VES_TARGETS; k++) {
             app_table_cell(&t, c->runs ? "%.1f %%" : "-", 100 * c->share[k].value);
             app_table_cell(&t, c->runs ? "[%.0f, %.0f]" : "", 100 * c->share[k].low, 100 * c->share[k].high);
@@ -168,23 +168,23 @@ static void totals(const ves_bench *b, FILE *out)
                  "evaluation\n\n");
 }
 
-static void score_row(app_table *t, const ves_bench *b, int entrant, int bout)
+static void score_row(app_table *t, const ves_bench *b, int method, int problem)
 {
-    const ves_score *c = score_of(b, entrant, bout);
+    const ves_score *c = score_of(b, method, problem);
     int last = VES_TARGETS - 1;
     char hits[CELL] = "", text[32], other[32];
     for (int k = 0; k < VES_TARGETS; k++)
         snprintf(hits + strlen(hits), sizeof hits - strlen(hits), "%s%d", k ? "/" : "", c->hits[k]);
-    app_table_cell(t, "%s", b->suite->entrant[entrant].name);
+    app_table_cell(t, "%s", b->suite->method[method].name);
     app_table_cell(t, "%s of %d", hits, c->runs);
     app_table_cell(t, c->runs ? "[%.0f, %.0f] %%" : "", 100 * c->share[last].low, 100 * c->share[last].high);
     app_table_cell(t, "%s", c->runs ? number(c->ert[last].value, text) : "");
     interval_cell(t, c->ert[last], number);
     app_table_cell(t, "%s", seconds(c->seconds.value, text));
-    app_table_cell(t, isfinite(c->quartile[1]) ? "%.9g" : "-", told(b, bout, c->quartile[1]));
-    app_table_cell(t, isfinite(c->best) ? "%.9g" : "-", told(b, bout, c->best));
+    app_table_cell(t, isfinite(c->quartile[1]) ? "%.9g" : "-", told(b, problem, c->quartile[1]));
+    app_table_cell(t, isfinite(c->best) ? "%.9g" : "-", told(b, problem, c->best));
     app_table_cell(t, "%d", c->feasible);
-    app_table_cell(t, "%s", b->bout[bout].m ? number(c->worst, text) : "");
+    app_table_cell(t, "%s", b->problem[problem].m ? number(c->worst, text) : "");
     app_table_cell(t, "%s", seconds(c->own, other));
 }
 
@@ -193,16 +193,16 @@ static void details(const ves_bench *b, FILE *out)
     static const char *const head[] = {"hits",   "last, 95 %", "ERT",      "95 %",  "seconds",
                                        "median", "best",       "feasible", "worst", "own time"};
     const ves_suite *s = b->suite;
-    for (int p = 0; p < s->bouts; p++) {
+    for (int p = 0; p < s->problems; p++) {
         app_table t = {.align = "lllrlrrrrrr"};
-        app_table_cell(&t, "%s", s->bout[p].name);
+        app_table_cell(&t, "%s", s->problem[p].name);
         for (size_t k = 0; k < sizeof head / sizeof *head; k++) app_table_cell(&t, "%s", head[k]);
-        for (int e = 0; e < s->entrants; e++) score_row(&t, b, e, p);
+        for (int e = 0; e < s->methods; e++) score_row(&t, b, e, p);
         app_table_print(&t, out);
-        for (int e = 0; e < s->entrants; e++) {
+        for (int e = 0; e < s->methods; e++) {
             const ves_score *c = score_of(b, e, p);
             if (c->reason)
-                fprintf(out, "    %s %s %d of %d: %s\n", s->entrant[e].name, c->failed ? "failed" : "notes",
+                fprintf(out, "    %s %s %d of %d: %s\n", s->method[e].name, c->failed ? "failed" : "notes",
                         c->failed, c->runs, c->reason);
         }
         fputc('\n', out);
@@ -230,7 +230,7 @@ static void pair_cell(app_table *t, const ves_pair *pair)
 static void too_few(const ves_bench *b, FILE *out)
 {
     double least = NAN;
-    for (int k = 0; k < b->suite->entrants * b->suite->entrants; k++)
+    for (int k = 0; k < b->suite->methods * b->suite->methods; k++)
         if (ves_tally_finding(&b->tally.pair[k]) == VES_FINDING_FEW)
             least = fmax(least, b->tally.pair[k].least);
     if (!isnan(least))
@@ -244,29 +244,29 @@ static void too_few(const ves_bench *b, FILE *out)
 static void pairs(const ves_bench *b, FILE *out)
 {
     const ves_suite *s = b->suite;
-    if (s->entrants < 2) return;
+    if (s->methods < 2) return;
     fprintf(
         out,
         "  chance that a run of the method on the left does better (A12), and p of Wilcoxon's signed ranks,\n"
         "  paired by problem and run, corrected for all pairs (Holm): whether they differ on these "
         "problems\n");
-    if (s->bouts >= VES_TALLY_PROBLEMS)
+    if (s->problems >= VES_TALLY_PROBLEMS)
         fprintf(out, "  / p of the means of each problem: whether they would on others of the kind\n");
     fputc('\n', out);
-    for (int first = 0; first < s->entrants; first += COLUMNS - 2) {
-        int end = first + COLUMNS - 2 < s->entrants ? first + COLUMNS - 2 : s->entrants;
+    for (int first = 0; first < s->methods; first += COLUMNS - 2) {
+        int end = first + COLUMNS - 2 < s->methods ? first + COLUMNS - 2 : s->methods;
         char align[COLUMNS + 2] = "l";
         memset(align + 1, 'l', (size_t)(end - first));
         app_table t = {.align = align};
         app_table_cell(&t, "%s", "");
-        for (int e = first; e < end; e++) app_table_cell(&t, "%s", s->entrant[e].name);
-        for (int i = 0; i < s->entrants; i++) {
-            app_table_cell(&t, "%s", s->entrant[i].name);
+        for (int e = first; e < end; e++) app_table_cell(&t, "%s", s->method[e].name);
+        for (int i = 0; i < s->methods; i++) {
+            app_table_cell(&t, "%s", s->method[i].name);
             for (int j = first; j < end; j++)
                 if (i == j)
                     app_table_cell(&t, "%s", "");
                 else
-                    pair_cell(&t, &b->tally.pair[i * s->entrants + j]);
+                    pair_cell(&t, &b->tally.pair[i * s->methods + j]);
         }
         app_table_print(&t, out);
         fputc('\n', out);
@@ -279,15 +279,15 @@ static void optima(const ves_bench *b, FILE *out)
     const ves_suite *s = b->suite;
     for (int k = 0; k < b->optima; k++) {
         const ves_bench_optimum *o = &b->optimum[k];
-        bool first = !k || b->optimum[k - 1].bout != o->bout;
+        bool first = !k || b->optimum[k - 1].problem != o->problem;
         const char *gap = "";
         ves_suite_place place = ves_suite_run(s, o->run);
-        if (first) fprintf(out, "  optima of %s\n", s->bout[o->bout].name);
-        fprintf(out, "    %.9g   first by %s, run %d; ", told(b, o->bout, o->value),
-                s->entrant[place.entrant].name, place.seed);
-        for (int e = 0; e < s->entrants; e++) {
+        if (first) fprintf(out, "  optima of %s\n", s->problem[o->problem].name);
+        fprintf(out, "    %.9g   first by %s, run %d; ", told(b, o->problem, o->value),
+                s->method[place.method].name, place.seed);
+        for (int e = 0; e < s->methods; e++) {
             if (!o->hits[e]) continue;
-            fprintf(out, "%s%s ", gap, s->entrant[e].name);
+            fprintf(out, "%s%s ", gap, s->method[e].name);
             fprintf(out, o->hits[e] == 1 ? "once" : "%d times", o->hits[e]);
             gap = ", ";
         }
@@ -300,8 +300,8 @@ static void optima(const ves_bench *b, FILE *out)
 static int best_of(const ves_bench *b)
 {
     int best = 0, last = VES_TARGETS - 1;
-    for (int e = 1; e < b->suite->entrants; e++) {
-        const ves_pair *pair = &b->tally.pair[e * b->suite->entrants + best];
+    for (int e = 1; e < b->suite->methods; e++) {
+        const ves_pair *pair = &b->tally.pair[e * b->suite->methods + best];
         double more = b->tally.total[e].share[last].value - b->tally.total[best].share[last].value;
         if (more > 0 || (more == 0 && pair->effect > 0.5)) best = e;
     }
@@ -314,11 +314,11 @@ static void others(const ves_bench *b, int best, ves_finding finding, bool often
 {
     int last = VES_TARGETS - 1;
     const ves_total *total = b->tally.total;
-    for (int e = 0; e < b->suite->entrants; e++) {
-        const ves_pair *pair = &b->tally.pair[best * b->suite->entrants + e];
+    for (int e = 0; e < b->suite->methods; e++) {
+        const ves_pair *pair = &b->tally.pair[best * b->suite->methods + e];
         bool same = total[e].share[last].value == total[best].share[last].value;
         if (e == best || ves_tally_finding(pair) != finding || (often && !same)) continue;
-        fprintf(out, "%s%s", before, b->suite->entrant[e].name);
+        fprintf(out, "%s%s", before, b->suite->method[e].name);
         before = ", ";
     }
 }
@@ -328,9 +328,9 @@ static bool all_begun(const ves_bench *b, FILE *out)
 {
     const char *before = "No verdict: there is no run yet of ";
     bool all = true;
-    for (int e = 0; e < b->suite->entrants; e++) {
+    for (int e = 0; e < b->suite->methods; e++) {
         if (b->tally.total[e].runs) continue;
-        fprintf(out, "%s%s", before, b->suite->entrant[e].name);
+        fprintf(out, "%s%s", before, b->suite->method[e].name);
         before = ", ";
         all = false;
     }
@@ -352,7 +352,7 @@ static void verdict(const ves_bench *b, FILE *out)
         fprintf(out, "no method met the last target.\n");
         return;
     }
-    fprintf(out, "%s met the last target most often: %.1f %% of %d runs", s->entrant[best].name,
+    fprintf(out, "%s met the last target most often: %.1f %% of %d runs", s->method[best].name,
             100 * t->share[last].value, t->runs);
     others(b, best, VES_FINDING_FIRST, true, "; as often, at a higher cost: ", out);
     others(b, best, VES_FINDING_SECOND, false, "; but run by run it is behind ", out);

@@ -20,7 +20,7 @@ static const ves_entry setting[] = {
     {{"setting", VES_TEXT, .about = "what --set would say: a variable's start, a parameter, or a key"}, "nu: 0.6", NULL},
     END};
 
-static const ves_entry bout_keys[] = {
+static const ves_entry problem_keys[] = {
     {{"name", VES_TEXT, .about = "what it is called in results; unless given, the function's or the file's name"}, "name: tube", NULL},
     {{"function", VES_TEXT, .about = "a built-in function (vesica list functions): the optimum of run k lies at a random place in the box, the same for every method"}, "function: rastrigin", NULL},
     {{"n", KIND(VES_LIST), .about = "numbers of variables: a problem each; may be left out where a function has but one"}, "n: [5, 10, 20]", count},
@@ -32,15 +32,15 @@ static const ves_entry bout_keys[] = {
     {{"optimum", VES_NUMBER, .unit = "1", .fallback = NAN, .about = "the least value, where it is known (of a problem file that maximizes, the greatest); of functions it is"}, "optimum: 12.16456", NULL},
     END};
 
-static const ves_entry bout[] = {
-    {{"problem", KIND(VES_MAP), .about = "one of function, file and plugin, and what belongs to it"}, "{function: rastrigin, n: [5, 10], rotate: true}", bout_keys},
+static const ves_entry problem[] = {
+    {{"problem", KIND(VES_MAP), .about = "one of function, file and plugin, and what belongs to it"}, "{function: rastrigin, n: [5, 10], rotate: true}", problem_keys},
     END};
 
 static const ves_entry word[] = {
     {{"word", VES_TEXT, .about = "a word of a command line; one that begins with ./ or ../ is a path from the folder of the suite on"}, "python3", NULL},
     END};
 
-static const ves_entry entrant_keys[] = {
+static const ves_entry method_keys[] = {
     {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of our own, as in problem files"}, "search: [{anneal: {chains: 1}}, {polish: {}}]", ves_schema_stage},
     {{"doubling", VES_FLAG, .fallback = 0, .about = "with search: runs of 1/15, 2/15, 4/15 and 8/15 of the budget, instead of one that is told all of it"}, "doubling: true", NULL},
     {{"nlopt", VES_TEXT, .about = "an algorithm of NLopt, by its name there; one that ends early begins again at a random point"}, "nlopt: GN_CRS2_LM", NULL},
@@ -50,8 +50,8 @@ static const ves_entry entrant_keys[] = {
     {{"gradients", VES_FLAG, .fallback = 1, .about = "it is given gradients where the problem has them"}, "gradients: false", NULL},
     END};
 
-static const ves_entry entrant[] = {
-    {{"method", KIND(VES_MAP), .about = "one of search, nlopt and program, and what belongs to it"}, "auto: {search: auto}", entrant_keys},
+static const ves_entry method[] = {
+    {{"method", KIND(VES_MAP), .about = "one of search, nlopt and program, and what belongs to it"}, "auto: {search: auto}", method_keys},
     END};
 
 static const ves_entry budget_keys[] = {
@@ -72,8 +72,8 @@ static const ves_entry feasible_keys[] = {
 static const ves_entry root[] = {
     {{"vesica", VES_COUNT, .required = true, .about = "version of the format: 1"}, "vesica: 1", NULL},
     {{"suite", VES_TEXT, .required = true, .about = "one line for people; it tells that the file is a suite for vesica bench"}, "suite: Classic functions, moved and turned", NULL},
-    {{"problems", KIND(VES_LIST), .required = true, .max = HUGE_VAL, .about = "what is to be minimised"}, "problems: [{function: rastrigin, n: [5, 10]}]", bout},
-    {{"methods", KIND(VES_NAMED), .required = true, .about = "by what"}, "methods: {auto: {search: auto}, isres: {nlopt: GN_ISRES}}", entrant},
+    {{"problems", KIND(VES_LIST), .required = true, .max = HUGE_VAL, .about = "what is to be minimised"}, "problems: [{function: rastrigin, n: [5, 10]}]", problem},
+    {{"methods", KIND(VES_NAMED), .required = true, .about = "by what"}, "methods: {auto: {search: auto}, isres: {nlopt: GN_ISRES}}", method},
     {{"seeds", VES_COUNT, .min = 1, .max = 1000, .fallback = 15, .about = "how often: runs of each method on each problem"}, "seeds: 15", NULL},
     {{"seed", KIND(VES_SEED), .fallback = 1, .about = "what all random numbers come from"}, "seed: 1", NULL},
     {{"budget", KIND(VES_MAP), .about = "what a run may cost"}, "budget: {per_dimension: 1e4, most: 2e5}", budget_keys},

@@ -8,14 +8,14 @@
 #include "base/diag.h"
 #include "problem/override.h"
 #include "problem/reader.h"
-#include "suite/contest.h"
+#include "suite/trial.h"
 
 enum { NAMES = 300, BOUTS = 1000 };
 
 typedef struct task {
     ves_reader reader;
     ves_suite *suite;
-    ves_bout *bout; /* growing: [room] */
+    ves_suite_problem *problem; /* growing: [room] */
     int room;
 } task;
 
@@ -92,39 +92,39 @@ static const ves_landscape *landscape_at(task *t, const ves_node *node)
     return NULL;
 }
 
-static bool name_free(task *t, const ves_bout *bout)
+static bool name_free(task *t, const ves_suite_problem *problem)
 {
-    for (int k = 0; k < t->suite->bouts; k++)
-        if (!strcmp(t->bout[k].name, bout->name)) return false;
+    for (int k = 0; k < t->suite->problems; k++)
+        if (!strcmp(t->problem[k].name, problem->name)) return false;
     return true;
 }
 
-static void add_bout(task *t, const ves_node *node, ves_bout bout)
+static void add_problem(task *t, const ves_node *node, ves_suite_problem problem)
 {
-    if (!bout.name) return;
-    if (t->suite->bouts == BOUTS) {
+    if (!problem.name) return;
+    if (t->suite->problems == BOUTS) {
         ves_reader_error(&t->reader, VES_RANGE, node, "more than %d problems", BOUTS);
         return;
     }
-    if (!name_free(t, &bout)) {
+    if (!name_free(t, &problem)) {
         ves_reader_error(&t->reader, VES_NAME, node,
                          "there is a problem \"%.80s\" already: give this one a \"name\" of its own",
-                         bout.name);
+                         problem.name);
         return;
     }
-    if (t->suite->bouts == t->room) {
+    if (t->suite->problems == t->room) {
         int room = t->room ? 2 * t->room : 16;
-        ves_bout *more = ves_memory_grow(t->bout, (size_t)room * sizeof *more);
+        ves_suite_problem *more = ves_memory_grow(t->problem, (size_t)room * sizeof *more);
         if (!ves_reader_memory(&t->reader, more)) return;
-        t->bout = more;
+        t->problem = more;
         t->room = room;
     }
-    t->bout[t->suite->bouts++] = bout;
+    t->problem[t->suite->problems++] = problem;
 }
 
-static void add_size(task *t, const ves_node *node, ves_bout bout, int n)
+static void add_size(task *t, const ves_node *node, ves_suite_problem problem, int n)
 {
-    const ves_landscape *l = bout.landscape;
+    const ves_landscape *l = problem.landscape;
     if (!ves_landscape_takes(l, n)) {
         int most = l->most ? l->most : VES_LANDSCAPE_MOST;
         if (l->least == most)
@@ -135,19 +135,19 @@ static void add_size(task *t, const ves_node *node, ves_bout bout, int n)
                              l->least, most, l->step == 3 ? ", three for each atom" : "", n);
         return;
     }
-    bout.n = n;
-    bout.name = ves_arena_format(arena_of(t), "%s %d", bout.name, n);
-    if (ves_reader_memory(&t->reader, bout.name)) add_bout(t, node, bout);
+    problem.n = n;
+    problem.name = ves_arena_format(arena_of(t), "%s %d", problem.name, n);
+    if (ves_reader_memory(&t->reader, problem.name)) add_problem(t, node, problem);
 }
 
-static void read_sizes(task *t, const ves_node *node, const ves_fields *f, ves_bout bout)
+static void read_sizes(task *t, const ves_node *node, const ves_fields *f, ves_suite_problem problem)
 {
-    const ves_landscape *l = bout.landscape;
+    const ves_landscape *l = problem.landscape;
     const ves_node *n = ves_fields_find(f, "n");
     const ves_key *key = &ves_fields_field(f, "n")->key[0];
     if (!n && l->least == l->most) {
-        bout.n = l->least;
-        add_bout(t, node, bout);
+        problem.n = l->least;
+        add_problem(t, node, problem);
     } else if (!n) {
         ves_reader_error(&t->reader, VES_SYNTAX, node, "\"%s\" takes any number of variables: give \"n\"",
                          l->name);
@@ -160,25 +160,26 @@ static void read_sizes(task *t, const ves_node *node, const ves_fields *f, ves_b
         const ves_node *item = list ? n->item[k] : n;
         int before = t->reader.errors;
         long size = ves_reader_count(&t->reader, item, &each);
-        if (t->reader.errors == before) add_size(t, item, bout, (int)size);
+        if (t->reader.errors == before) add_size(t, item, problem, (int)size);
     }
 }
 
-static void read_function(task *t, const ves_node *node, const ves_fields *f, ves_bout bout)
+static void read_function(task *t, const ves_node *node, const ves_fields *f, ves_suite_problem problem)
 {
-    bout.kind = VES_BOUT_LANDSCAPE;
-    bout.landscape = landscape_at(t, ves_fields_find(f, "function"));
-    bout.turned = flag_at(t, f, "rotate");
-    if (!bout.landscape) return;
+    problem.kind = VES_SUITE_LANDSCAPE;
+    problem.landscape = landscape_at(t, ves_fields_find(f, "function"));
+    problem.turned = flag_at(t, f, "rotate");
+    if (!problem.landscape) return;
     const ves_node *rotate = ves_fields_find(f, "rotate");
-    if (bout.turned && !bout.landscape->free) {
+    if (problem.turned && !problem.landscape->free) {
         ves_reader_error(&t->reader, VES_RANGE, rotate, "\"%s\" ends at its box and cannot be turned",
-                         bout.landscape->name);
+                         problem.landscape->name);
         return;
     }
-    if (!bout.name)
-        bout.name = ves_arena_format(arena_of(t), "%s%s", bout.turned ? "rot_" : "", bout.landscape->name);
-    if (ves_reader_memory(&t->reader, bout.name)) read_sizes(t, node, f, bout);
+    if (!problem.name)
+        problem.name =
+            ves_arena_format(arena_of(t), "%s%s", problem.turned ? "rot_" : "", problem.landscape->name);
+    if (ves_reader_memory(&t->reader, problem.name)) read_sizes(t, node, f, problem);
 }
 
 static const char *stem(task *t, const char *path)
@@ -189,31 +190,31 @@ static const char *stem(task *t, const char *path)
     return ves_reader_memory(&t->reader, name) ? name : "";
 }
 
-static void read_file(task *t, const ves_node *node, const ves_fields *f, ves_bout bout)
+static void read_file(task *t, const ves_node *node, const ves_fields *f, ves_suite_problem problem)
 {
     const char *path = text_at(t, ves_fields_find(f, "file"), "file name");
     if (!path) return;
-    bout.kind = VES_BOUT_FILE;
-    bout.path = beside(t, path);
+    problem.kind = VES_SUITE_FILE;
+    problem.path = beside(t, path);
     const ves_node *set = ves_fields_find(f, "set");
-    if (set) bout.set = ves_reader_overrides(&t->reader, set, &bout.sets);
-    if (!bout.name) bout.name = stem(t, path);
-    add_bout(t, node, bout);
+    if (set) problem.set = ves_reader_overrides(&t->reader, set, &problem.sets);
+    if (!problem.name) problem.name = stem(t, path);
+    add_problem(t, node, problem);
 }
 
-static void read_plugin(task *t, const ves_node *node, const ves_fields *f, ves_bout bout)
+static void read_plugin(task *t, const ves_node *node, const ves_fields *f, ves_suite_problem problem)
 {
     const ves_node *objective = ves_fields_find(f, "objective");
     const char *path = text_at(t, ves_fields_find(f, "plugin"), "file name");
     if (!path) return;
-    bout.kind = VES_BOUT_PLUGIN;
-    bout.path = beside(t, path);
-    if (objective) bout.objective = text_at(t, objective, "name of an objective");
-    if (!bout.name) bout.name = bout.objective ? bout.objective : stem(t, path);
-    add_bout(t, node, bout);
+    problem.kind = VES_SUITE_PLUGIN;
+    problem.path = beside(t, path);
+    if (objective) problem.objective = text_at(t, objective, "name of an objective");
+    if (!problem.name) problem.name = problem.objective ? problem.objective : stem(t, path);
+    add_problem(t, node, problem);
 }
 
-static void read_bout(task *t, const ves_node *node, const ves_entry *table)
+static void read_problem(task *t, const ves_node *node, const ves_entry *table)
 {
     static const char *const kinds[] = {"function", "file", "plugin"};
     static const char *const others[][5] = {
@@ -226,16 +227,17 @@ static void read_bout(task *t, const ves_node *node, const ves_entry *table)
     if (kind < 0) return;
     for (int k = 0; others[kind][k]; k++)
         only_with(t, &f, owner[kind][k], (const char *[]){others[kind][k], NULL});
-    ves_bout bout = {.mark = ves_reader_mark(&t->reader, node), .optimum = number_at(t, &f, "optimum")};
+    ves_suite_problem problem = {.mark = ves_reader_mark(&t->reader, node),
+                                 .optimum = number_at(t, &f, "optimum")};
     const ves_node *name = ves_fields_find(&f, "name");
-    if (name) bout.name = text_at(t, name, "name");
+    if (name) problem.name = text_at(t, name, "name");
     const ves_node *optimum = ves_fields_find(&f, "optimum");
     if (kind == 0 && optimum)
         ves_reader_error(&t->reader, VES_SYNTAX, optimum,
                          "the optimum of a function is known: leave \"optimum\" out");
     static void (*const read[])(task *, const ves_node *, const ves_fields *,
-                                ves_bout) = {read_function, read_file, read_plugin};
-    read[kind](t, node, &f, bout);
+                                ves_suite_problem) = {read_function, read_file, read_plugin};
+    read[kind](t, node, &f, problem);
 }
 
 /* --- methods --- */
@@ -245,33 +247,32 @@ static const char *algorithm_at(task *t, const ves_node *node, bool *needs)
     const char *name[NAMES], *text = text_at(t, node, "name of an algorithm of NLopt");
     int count = 0;
     *needs = false;
-    if (!text || ves_contest_algorithm(text, needs)) return text;
-    while (count < NAMES && ves_contest_algorithms(count))
-        name[count] = ves_contest_algorithms(count), count++;
+    if (!text || ves_trial_algorithm(text, needs)) return text;
+    while (count < NAMES && ves_trial_algorithms(count)) name[count] = ves_trial_algorithms(count), count++;
     ves_reader_error(&t->reader, VES_NAME, node, "NLopt has no algorithm \"%.80s\"%s", text,
                      ves_reader_suggestion(&t->reader, text, name, count));
     return NULL;
 }
 
-static void read_nlopt(task *t, const ves_node *node, const ves_fields *f, ves_entrant *entrant)
+static void read_nlopt(task *t, const ves_node *node, const ves_fields *f, ves_method *method)
 {
     const ves_node *local = ves_fields_find(f, "local");
     bool needs, nested = false;
-    entrant->kind = VES_ENTRANT_NLOPT;
-    entrant->algorithm = algorithm_at(t, ves_fields_find(f, "nlopt"), &needs);
-    if (local) entrant->local = algorithm_at(t, local, &nested);
-    if (!entrant->algorithm || (local && !entrant->local)) return;
+    method->kind = VES_METHOD_NLOPT;
+    method->algorithm = algorithm_at(t, ves_fields_find(f, "nlopt"), &needs);
+    if (local) method->local = algorithm_at(t, local, &nested);
+    if (!method->algorithm || (local && !method->local)) return;
     if (needs && !local)
         ves_reader_error(&t->reader, VES_SYNTAX, node,
-                         "\"%s\" needs another algorithm inside: give \"local\"", entrant->algorithm);
+                         "\"%s\" needs another algorithm inside: give \"local\"", method->algorithm);
     if (local && (nested || !needs))
         ves_reader_error(&t->reader, VES_SYNTAX, local, "\"%s\" has no use for \"%s\" inside",
-                         entrant->algorithm, entrant->local);
+                         method->algorithm, method->local);
 }
 
-static void read_program(task *t, const ves_node *node, ves_entrant *entrant)
+static void read_program(task *t, const ves_node *node, ves_method *method)
 {
-    entrant->kind = VES_ENTRANT_PROGRAM;
+    method->kind = VES_METHOD_PROGRAM;
     bool list = node->kind == VES_NODE_LIST;
     int count = list ? node->count : 1;
     if (!count || count > VES_SUITE_WORDS) {
@@ -281,28 +282,28 @@ static void read_program(task *t, const ves_node *node, ves_entrant *entrant)
     for (int k = 0; k < count; k++) {
         const char *word = text_at(t, list ? node->item[k] : node, "word");
         bool here = word && (!strncmp(word, "./", 2) || !strncmp(word, "../", 3));
-        entrant->word[k] = here ? beside(t, word) : word;
+        method->word[k] = here ? beside(t, word) : word;
     }
 }
 
-static void read_entrant(task *t, const ves_named *named, const ves_entry *table, ves_entrant *entrant)
+static void read_method(task *t, const ves_named *named, const ves_entry *table, ves_method *method)
 {
     static const char *const kinds[] = {"search", "nlopt", "program"};
     ves_fields f;
-    *entrant = (ves_entrant){.name = named->text, .mark = ves_reader_mark(&t->reader, named->word)};
-    entrant->search = ves_search_options_default();
+    *method = (ves_method){.name = named->text, .mark = ves_reader_mark(&t->reader, named->word)};
+    method->search = ves_search_options_default();
     if (!ves_fields_read(&t->reader, named->value, table, "method", &f)) return;
     int kind = one_of(t, named->value, &f, "method", kinds);
     if (kind < 0) return;
     if (kind != 0) only_with(t, &f, "search", (const char *[]){"doubling", NULL});
     if (kind != 1) only_with(t, &f, "nlopt", (const char *[]){"local", NULL});
     if (kind != 2) only_with(t, &f, "program", (const char *[]){"seconds", NULL});
-    entrant->values = !flag_at(t, &f, "gradients");
-    entrant->doubling = flag_at(t, &f, "doubling");
-    entrant->seconds = number_at(t, &f, "seconds");
-    if (kind == 0) ves_reader_stages(&t->reader, ves_fields_find(&f, "search"), &entrant->search);
-    if (kind == 1) read_nlopt(t, named->value, &f, entrant);
-    if (kind == 2) read_program(t, ves_fields_find(&f, "program"), entrant);
+    method->values = !flag_at(t, &f, "gradients");
+    method->doubling = flag_at(t, &f, "doubling");
+    method->seconds = number_at(t, &f, "seconds");
+    if (kind == 0) ves_reader_stages(&t->reader, ves_fields_find(&f, "search"), &method->search);
+    if (kind == 1) read_nlopt(t, named->value, &f, method);
+    if (kind == 2) read_program(t, ves_fields_find(&f, "program"), method);
 }
 
 /* --- the file --- */
@@ -360,7 +361,7 @@ static void read_numbers(task *t, const ves_fields *root)
     read_targets(t, ves_fields_find(root, "targets"));
 }
 
-static void read_bouts(task *t, const ves_node *node)
+static void read_problems(task *t, const ves_node *node)
 {
     const ves_entry *entry = ves_schema_find(ves_schema_suite.table, "problems")->table;
     if (!node) return;
@@ -368,24 +369,24 @@ static void read_bouts(task *t, const ves_node *node)
         ves_reader_error(&t->reader, VES_SYNTAX, node, "\"problems\" must be a list of at least one problem");
         return;
     }
-    for (int k = 0; k < node->count; k++) read_bout(t, node->item[k], entry->table);
-    ves_bout *bout = ves_arena_take(arena_of(t), (size_t)t->suite->bouts, sizeof *bout);
-    if (ves_reader_memory(&t->reader, bout) && t->suite->bouts)
-        memcpy(bout, t->bout, (size_t)t->suite->bouts * sizeof *bout);
-    t->suite->bout = bout;
+    for (int k = 0; k < node->count; k++) read_problem(t, node->item[k], entry->table);
+    ves_suite_problem *problem = ves_arena_take(arena_of(t), (size_t)t->suite->problems, sizeof *problem);
+    if (ves_reader_memory(&t->reader, problem) && t->suite->problems)
+        memcpy(problem, t->problem, (size_t)t->suite->problems * sizeof *problem);
+    t->suite->problem = problem;
 }
 
-static void read_entrants(task *t, const ves_node *node)
+static void read_methods(task *t, const ves_node *node)
 {
     const ves_entry *entry = ves_schema_find(ves_schema_suite.table, "methods")->table;
     ves_names names;
     if (!node) return;
     ves_names_read(&t->reader, node, "method", false, &names);
-    ves_entrant *entrant = ves_arena_take(arena_of(t), (size_t)names.count, sizeof *entrant);
-    if (!ves_reader_memory(&t->reader, entrant)) return;
-    for (int k = 0; k < names.count; k++) read_entrant(t, &names.name[k], entry->table, &entrant[k]);
-    t->suite->entrants = names.count;
-    t->suite->entrant = entrant;
+    ves_method *method = ves_arena_take(arena_of(t), (size_t)names.count, sizeof *method);
+    if (!ves_reader_memory(&t->reader, method)) return;
+    for (int k = 0; k < names.count; k++) read_method(t, &names.name[k], entry->table, &method[k]);
+    t->suite->methods = names.count;
+    t->suite->method = method;
     if (!names.count && !t->reader.errors)
         ves_reader_error(&t->reader, VES_SYNTAX, node, "\"methods\" must name at least one method");
 }
@@ -407,8 +408,8 @@ static void read_root(task *t, const ves_node *root)
                ves_fields_read(reader, root, ves_schema_suite.table, "suite", &fields)) {
         ves_reader_repeats(reader, root);
         read_numbers(t, &fields);
-        read_bouts(t, ves_fields_find(&fields, "problems"));
-        read_entrants(t, ves_fields_find(&fields, "methods"));
+        read_problems(t, ves_fields_find(&fields, "problems"));
+        read_methods(t, ves_fields_find(&fields, "methods"));
     }
 }
 
@@ -421,7 +422,7 @@ static ves_status read_script(ves_suite *suite, const ves_script *script, const 
     suite->text = ves_arena_text(&suite->arena, script->text, script->length);
     if (ves_reader_memory(&t.reader, suite->text)) read_root(&t, root);
     ves_reader_tell(&t.reader, diag);
-    ves_memory_free(t.bout);
+    ves_memory_free(t.problem);
     ves_memory_free(t.reader.message);
     ves_memory_free(t.reader.number);
     ves_memory_free(t.reader.use);

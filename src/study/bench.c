@@ -14,9 +14,9 @@
 #include "study/bench_polish.h"
 #include "study/folder.h"
 #include "study/optima.h"
-#include "study/ring.h"
 #include "study/run.h"
 #include "study/team.h"
+#include "study/testbed.h"
 
 /* What ves_bench_run makes: first what the caller holds. */
 typedef struct bench {
@@ -25,7 +25,7 @@ typedef struct bench {
     const ves_bench_hooks *hooks;
     const ves_team *team; /* NULL: alone */
     ves_diag *diag;
-    ves_ring *ring; /* [bouts] */
+    ves_testbed *testbed; /* [problems] */
     ves_pool *pool;
     ves_bench_files files;
     int *waiting; /* [mine] runs to be made here, in the order in which they are begun */
@@ -59,10 +59,10 @@ static ves_status join(bench *b)
 
 /* --- one run --- */
 
-static ves_status outcome_take(const ves_contest *contest, ves_outcome *o)
+static ves_status outcome_take(const ves_trial *trial, ves_outcome *o)
 {
-    ves_meter *meter = contest->meter;
-    o->failed = contest->failed;
+    ves_meter *meter = trial->meter;
+    o->failed = trial->failed;
     o->hit = meter->hit;
     o->any = meter->any;
     o->budget = meter->budget;
@@ -70,12 +70,12 @@ static ves_status outcome_take(const ves_contest *contest, ves_outcome *o)
     o->evaluations = meter->evaluations;
     o->gradients = meter->gradients;
     o->failures = meter->failed;
-    o->starts = contest->starts;
+    o->starts = trial->starts;
     o->value = meter->value;
     o->violation = meter->violation;
     o->n = meter->inner->n;
     o->inside = meter->inside;
-    memcpy(o->reason, contest->reason, sizeof o->reason);
+    memcpy(o->reason, trial->reason, sizeof o->reason);
     o->x = ves_memory_take((size_t)o->n * sizeof *o->x);
     if (!o->x) return VES_MEMORY;
     memcpy(o->x, meter->x, (size_t)o->n * sizeof *o->x);
@@ -85,14 +85,14 @@ static ves_status outcome_take(const ves_contest *contest, ves_outcome *o)
     return VES_OK;
 }
 
-static ves_status fight(bench *b, int worker, int index, ves_arena *arena, ves_outcome *outcome)
+static ves_status trial_run(bench *b, int worker, int index, ves_arena *arena, ves_outcome *outcome)
 {
     const ves_suite *suite = b->shown.suite;
     ves_suite_place place = ves_suite_run(suite, index);
-    const ves_bout *bout = &suite->bout[place.bout];
+    const ves_suite_problem *problem = &suite->problem[place.problem];
     ves_pose pose;
-    VES_TRY(ves_ring_pose(&b->ring[place.bout], worker, place.seed, arena, &pose));
-    bool own = bout->kind == VES_BOUT_FILE;
+    VES_TRY(ves_testbed_pose(&b->testbed[place.problem], worker, place.seed, arena, &pose));
+    bool own = problem->kind == VES_SUITE_FILE;
     ves_meter meter = {.inner = &pose.problem,
                        .budget = ves_suite_budget(suite, pose.problem.n),
                        .cost = suite->cost,
@@ -101,21 +101,21 @@ static ves_status fight(bench *b, int worker, int index, ves_arena *arena, ves_o
                        .equality = suite->equality,
                        .target = isnan(pose.optimum)
                                      ? -HUGE_VAL
-                                     : ves_suite_value(bout, pose.optimum, suite->target[VES_TARGETS - 1]),
+                                     : ves_suite_value(problem, pose.optimum, suite->target[VES_TARGETS - 1]),
                        .clock = ves_study_clock};
-    ves_contest contest = {.entrant = &suite->entrant[place.entrant],
-                           .meter = &meter,
-                           .seed = ves_suite_seed(suite, bout, place.seed),
-                           .stopped = stopped,
-                           .data = b};
+    ves_trial trial = {.method = &suite->method[place.method],
+                       .meter = &meter,
+                       .seed = ves_suite_seed(suite, problem, place.seed),
+                       .stopped = stopped,
+                       .data = b};
     ves_status status = ves_meter_begin(&meter) ? VES_OK : VES_MEMORY;
     double begin = ves_study_clock(), cpu = ves_study_thread_clock();
-    if (status == VES_OK) status = ves_contest_run(&contest);
+    if (status == VES_OK) status = ves_trial_run(&trial);
     double wall = ves_study_clock() - begin, all = ves_study_thread_clock() - cpu;
-    bool inside = contest.entrant->kind != VES_ENTRANT_PROGRAM;
-    outcome->wall = fmax(wall - contest.aside, 0);
+    bool inside = trial.method->kind != VES_METHOD_PROGRAM;
+    outcome->wall = fmax(wall - trial.aside, 0);
     outcome->cpu = inside ? all * outcome->wall / fmax(wall, 1e-9) : NAN;
-    if (status == VES_OK) status = outcome_take(&contest, outcome);
+    if (status == VES_OK) status = outcome_take(&trial, outcome);
     ves_meter_end(&meter);
     return status;
 }
@@ -138,12 +138,12 @@ static ves_status broken(bench *b, int index, ves_status status)
 {
     const ves_suite *s = b->shown.suite;
     ves_suite_place place = ves_suite_run(s, index);
-    const ves_bout *bout = &s->bout[place.bout];
+    const ves_suite_problem *problem = &s->problem[place.problem];
     if (status == VES_MEMORY || b->status != VES_OK || (status == VES_INTERRUPTED && stopped(b)))
         return status;
-    ves_diag_add(b->diag, VES_ERROR, status, bout->mark,
+    ves_diag_add(b->diag, VES_ERROR, status, problem->mark,
                  "\"%s\" could not be evaluated in run %d of %s, which ends the benchmark: %s (%s)",
-                 bout->name, place.seed, s->entrant[place.entrant].name, ves_status_word(status),
+                 problem->name, place.seed, s->method[place.method].name, ves_status_word(status),
                  ves_status_text(status));
     return status == VES_INTERRUPTED ? VES_FAULT : status; /* a plugin may return anything */
 }
@@ -158,7 +158,7 @@ static void task(void *data, int worker, int number)
     ves_status status = b->status;
     ves_pool_unlock(b->pool);
     if (status != VES_OK || stopped(b)) return;
-    status = fight(b, worker, index, &arena, outcome);
+    status = trial_run(b, worker, index, &arena, outcome);
     ves_arena_destroy(&arena);
     ves_pool_lock(b->pool);
     if (status != VES_OK) status = broken(b, index, status);
@@ -169,19 +169,19 @@ static void task(void *data, int worker, int number)
 
 /* --- all of them --- */
 
-static ves_status rings_open(bench *b)
+static ves_status testbeds_open(bench *b)
 {
     ves_suite *suite = b->shown.suite;
-    ves_bench_bout *facts = ves_arena_take(&b->arena, (size_t)suite->bouts, sizeof *facts);
-    b->ring = ves_arena_take(&b->arena, (size_t)suite->bouts, sizeof *b->ring);
-    if (!b->ring || !facts) return ves_diag_fail(b->diag, VES_MEMORY);
-    for (int k = 0; k < suite->bouts; k++) {
-        b->ring[k] = (ves_ring){
-            .bout = &suite->bout[k], .hooks = b->hooks, .jobs = b->shown.jobs, .seed = suite->seed};
-        VES_TRY(ves_ring_open(&b->ring[k], &b->arena, b->diag));
-        facts[k] = b->ring[k].facts;
+    ves_bench_problem *facts = ves_arena_take(&b->arena, (size_t)suite->problems, sizeof *facts);
+    b->testbed = ves_arena_take(&b->arena, (size_t)suite->problems, sizeof *b->testbed);
+    if (!b->testbed || !facts) return ves_diag_fail(b->diag, VES_MEMORY);
+    for (int k = 0; k < suite->problems; k++) {
+        b->testbed[k] = (ves_testbed){
+            .problem = &suite->problem[k], .hooks = b->hooks, .jobs = b->shown.jobs, .seed = suite->seed};
+        VES_TRY(ves_testbed_open(&b->testbed[k], &b->arena, b->diag));
+        facts[k] = b->testbed[k].facts;
     }
-    b->shown.bout = facts;
+    b->shown.problem = facts;
     return VES_OK;
 }
 
@@ -189,14 +189,15 @@ static ves_status rings_open(bench *b)
 static ves_status polish(bench *b, ves_tally_input *input)
 {
     const ves_suite *s = b->shown.suite;
-    double *value = ves_arena_take(&b->arena, (size_t)s->bouts, sizeof *value);
+    double *value = ves_arena_take(&b->arena, (size_t)s->problems, sizeof *value);
     if (!value) return ves_diag_fail(b->diag, VES_MEMORY);
-    for (int k = 0; k < s->bouts; k++) {
+    for (int k = 0; k < s->problems; k++) {
         ves_reference best = ves_tally_reference(input, k);
         value[k] = NAN;
         if (best.known || isnan(best.value) || stopped(b)) continue;
-        int run = (best.entrant * s->bouts + k) * s->seeds + best.seed;
-        ves_status status = ves_bench_polish(&b->ring[k], s, &b->shown.outcome[run], stopped, b, &value[k]);
+        int run = (best.method * s->problems + k) * s->seeds + best.seed;
+        ves_status status =
+            ves_bench_polish(&b->testbed[k], s, &b->shown.outcome[run], stopped, b, &value[k]);
         if (status != VES_OK) return ves_diag_fail(b->diag, status);
     }
     input->polished = value;
@@ -207,21 +208,21 @@ static ves_status polish(bench *b, ves_tally_input *input)
 static ves_status count_up(bench *b)
 {
     ves_bench *shown = &b->shown;
-    int bouts = shown->suite->bouts, *n = ves_arena_take(&b->arena, (size_t)bouts, sizeof *n);
-    double *optimum = ves_arena_take(&b->arena, (size_t)bouts, sizeof *optimum);
+    int problems = shown->suite->problems, *n = ves_arena_take(&b->arena, (size_t)problems, sizeof *n);
+    double *optimum = ves_arena_take(&b->arena, (size_t)problems, sizeof *optimum);
     if (!n || !optimum) return ves_diag_fail(b->diag, VES_MEMORY);
-    for (int k = 0; k < bouts; k++) n[k] = shown->bout[k].n, optimum[k] = shown->bout[k].optimum;
+    for (int k = 0; k < problems; k++) n[k] = shown->problem[k].n, optimum[k] = shown->problem[k].optimum;
     ves_tally_input input = {.suite = shown->suite, .outcome = shown->outcome, .optimum = optimum, .n = n};
     VES_TRY(polish(b, &input));
     if (!ves_tally_init(&input, &shown->tally)) return ves_diag_fail(b->diag, VES_MEMORY);
-    for (int k = 0; k < bouts; k++) {
-        if (shown->suite->bout[k].kind == VES_BOUT_LANDSCAPE) continue;
-        ves_status status = ves_optima_find(&b->ring[k], k, shown, &b->arena);
+    for (int k = 0; k < problems; k++) {
+        if (shown->suite->problem[k].kind == VES_SUITE_LANDSCAPE) continue;
+        ves_status status = ves_optima_find(&b->testbed[k], k, shown, &b->arena);
         if (status != VES_OK) return ves_diag_fail(b->diag, status);
     }
     if (!b->files.folder) return VES_OK;
     VES_TRY(ves_bench_charts_write(shown, &input, b->diag));
-    return ves_bench_gallery_write(shown, b->ring, b->diag);
+    return ves_bench_gallery_write(shown, b->testbed, b->diag);
 }
 
 /* All methods on all problems, then once more: what is broken off can be compared. Ranks take turns. */
@@ -232,9 +233,9 @@ static ves_status line_up(bench *b)
     b->waiting = ves_arena_take(&b->arena, (size_t)b->shown.runs, sizeof *b->waiting);
     if (!b->waiting) return ves_diag_fail(b->diag, VES_MEMORY);
     for (int k = 0; k < s->seeds; k++)
-        for (int p = 0; p < s->bouts; p++)
-            for (int e = 0; e < s->entrants; e++) {
-                int index = (e * s->bouts + p) * s->seeds + k;
+        for (int p = 0; p < s->problems; p++)
+            for (int e = 0; e < s->methods; e++) {
+                int index = (e * s->problems + p) * s->seeds + k;
                 if (b->shown.outcome[index].done) continue;
                 if (left++ % ranks == (b->team ? b->team->rank : 0)) b->waiting[count++] = index;
             }
@@ -312,7 +313,7 @@ static ves_status finish(bench *b, ves_status status, ves_bench **out)
     ves_status closed = VES_OK;
     if (ves_team_leads(b->team) && b->files.folder && b->shown.tally.score)
         closed = ves_bench_report_write(&b->shown, b->diag);
-    for (int k = 0; b->ring && k < b->shown.suite->bouts; k++) ves_ring_close(&b->ring[k]);
+    for (int k = 0; b->testbed && k < b->shown.suite->problems; k++) ves_testbed_close(&b->testbed[k]);
     ves_status ended = ves_bench_files_end(&b->files, &b->shown);
     if (closed == VES_OK) closed = ended;
     if (status == VES_OK) status = closed;
@@ -326,9 +327,10 @@ static ves_status finish(bench *b, ves_status status, ves_bench **out)
 static ves_status about_write(bench *b)
 {
     const ves_suite *suite = b->shown.suite;
-    const char **text = ves_arena_take(&b->arena, (size_t)suite->bouts, sizeof *text);
+    const char **text = ves_arena_take(&b->arena, (size_t)suite->problems, sizeof *text);
     if (!text) return ves_diag_fail(b->diag, VES_MEMORY);
-    for (int k = 0; k < suite->bouts; k++) text[k] = b->ring[k].problem ? b->ring[k].problem->text : NULL;
+    for (int k = 0; k < suite->problems; k++)
+        text[k] = b->testbed[k].source ? b->testbed[k].source->text : NULL;
     return ves_bench_about_write(b->files.folder, suite, text, b->diag);
 }
 
@@ -339,7 +341,7 @@ ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, con
     *out = NULL;
     bench *b = bench_create(suite, options, hooks, diag);
     if (!b) return VES_MEMORY;
-    ves_status status = rings_open(b);
+    ves_status status = testbeds_open(b);
     if (status == VES_OK && b->team && options->no_files)
         status = ves_diag_add(diag, VES_ERROR, VES_USAGE, (ves_mark){0},
                               "under mpirun a benchmark is gathered in its folder: not with --no-files");
@@ -355,34 +357,34 @@ ves_status ves_bench_run(ves_suite *suite, const ves_bench_options *options, con
 }
 
 /* Methods that were there first, in their order; then those that have been added. */
-static void order(ves_suite *suite, const ves_bench_about *about, ves_entrant *room)
+static void order(ves_suite *suite, const ves_bench_about *about, ves_method *room)
 {
     int count = 0;
     for (int k = 0; k < about->methods; k++)
-        for (int e = 0; e < suite->entrants; e++)
-            if (!strcmp(suite->entrant[e].name, about->method[k])) room[count++] = suite->entrant[e];
-    for (int e = 0; e < suite->entrants; e++) {
+        for (int e = 0; e < suite->methods; e++)
+            if (!strcmp(suite->method[e].name, about->method[k])) room[count++] = suite->method[e];
+    for (int e = 0; e < suite->methods; e++) {
         bool old = false;
         for (int k = 0; k < about->methods; k++)
-            old = old || !strcmp(suite->entrant[e].name, about->method[k]);
-        if (!old) room[count++] = suite->entrant[e];
+            old = old || !strcmp(suite->method[e].name, about->method[k]);
+        if (!old) room[count++] = suite->method[e];
     }
-    suite->entrant = room;
+    suite->method = room;
 }
 
 /* Problem files are read from the copies in the folder, in which what was set stands. */
 static ves_status copies_use(ves_suite *suite, const char *folder)
 {
-    ves_bout *bout = ves_arena_take(&suite->arena, (size_t)suite->bouts, sizeof *bout);
-    if (!bout) return VES_MEMORY;
-    memcpy(bout, suite->bout, (size_t)suite->bouts * sizeof *bout);
-    for (int k = 0; k < suite->bouts; k++) {
-        if (bout[k].kind != VES_BOUT_FILE) continue;
-        bout[k].sets = 0;
-        bout[k].path = ves_bench_about_problem(folder, k, &suite->arena);
-        if (!bout[k].path) return VES_MEMORY;
+    ves_suite_problem *problem = ves_arena_take(&suite->arena, (size_t)suite->problems, sizeof *problem);
+    if (!problem) return VES_MEMORY;
+    memcpy(problem, suite->problem, (size_t)suite->problems * sizeof *problem);
+    for (int k = 0; k < suite->problems; k++) {
+        if (problem[k].kind != VES_SUITE_FILE) continue;
+        problem[k].sets = 0;
+        problem[k].path = ves_bench_about_problem(folder, k, &suite->arena);
+        if (!problem[k].path) return VES_MEMORY;
     }
-    suite->bout = bout;
+    suite->problem = problem;
     return VES_OK;
 }
 
@@ -400,8 +402,8 @@ static ves_status reopen(const char *folder, const ves_read_options *added, ves_
     if (status == VES_OK)
         status = ves_suite_read_text(about.path, about.text, about.length, added, suite, diag);
     if (status == VES_OK) {
-        ves_entrant *room =
-            ves_arena_take(&(*suite)->arena, (size_t)((*suite)->entrants + about.methods), sizeof *room);
+        ves_method *room =
+            ves_arena_take(&(*suite)->arena, (size_t)((*suite)->methods + about.methods), sizeof *room);
         if (room) order(*suite, &about, room);
         if (!room || copies_use(*suite, folder) != VES_OK)
             status = ves_diag_fail(diag, VES_MEMORY), ves_suite_destroy(*suite), *suite = NULL;
@@ -423,9 +425,9 @@ ves_status ves_bench_resume(const char *folder, const ves_read_options *added,
     if (!b) return VES_MEMORY;
     b->shown.folder = ves_arena_text(&b->arena, folder, strlen(folder));
     if (!b->shown.folder) status = ves_diag_fail(diag, VES_MEMORY);
-    if (!ves_team_leads(b->team)) return finish(b, status == VES_OK ? rings_open(b) : status, out);
+    if (!ves_team_leads(b->team)) return finish(b, status == VES_OK ? testbeds_open(b) : status, out);
     if (status == VES_OK) status = ves_bench_files_take(&b->files, b->shown.folder, &b->arena, diag);
-    if (status == VES_OK) status = rings_open(b);
+    if (status == VES_OK) status = testbeds_open(b);
     if (status == VES_OK) status = ves_bench_files_again(&b->files, &b->shown);
     if (status == VES_OK && added->overrides) status = about_write(b);
     return finish(b, status, out);

@@ -34,20 +34,20 @@ typedef struct ves_bench_options {
 } ves_bench_options;
 
 /* What a problem of the suite turned out to be. */
-typedef struct ves_bench_bout {
+typedef struct ves_bench_problem {
     int n, m, equalities;
     const char *eliminated; /* "scale", "solve", "scale, solve": equations that every candidate meets; "" */
     bool gradients;
     bool maximize;                    /* values here are those of the negative goal */
     double optimum;                   /* NAN: not known */
     double seconds, seconds_gradient; /* of one evaluation, measured; NAN: not */
-} ves_bench_bout;
+} ves_bench_problem;
 
 /* An optimum of a problem of files or plugins: where several runs ended. */
 typedef struct ves_bench_optimum {
-    int bout, run; /* run: the best that ended there */
+    int problem, run; /* run: the best that ended there */
     double value;
-    int *hits; /* [entrants] runs of each method that ended there */
+    int *hits; /* [methods] runs of each method that ended there */
 } ves_bench_optimum;
 
 struct ves_bench {
@@ -56,7 +56,7 @@ struct ves_bench {
     int jobs, runs, done;
     int before;           /* of them done by earlier processes */
     ves_outcome *outcome; /* [runs] */
-    const ves_bench_bout *bout;
+    const ves_bench_problem *problem;
     double wall; /* s, of this process */
     ves_tally tally;
     int optima;

@@ -25,9 +25,9 @@ typedef struct writer {
     ves_diag *diag;
 } writer;
 
-char *ves_bench_about_problem(const char *folder, int bout, ves_arena *arena)
+char *ves_bench_about_problem(const char *folder, int problem, ves_arena *arena)
 {
-    return ves_arena_format(arena, "%s/problems/%d.yaml", folder, bout);
+    return ves_arena_format(arena, "%s/problems/%d.yaml", folder, problem);
 }
 
 static ves_status text_write(writer *w, const char *path, const char *text)
@@ -42,7 +42,7 @@ static ves_status text_write(writer *w, const char *path, const char *text)
 static ves_status copies_write(writer *w, const char *const *problem)
 {
     VES_TRY(text_write(w, ves_folder_path(w->folder, "suite.yaml", &w->arena), w->suite->text));
-    for (int k = 0; k < w->suite->bouts; k++) {
+    for (int k = 0; k < w->suite->problems; k++) {
         if (!problem[k]) continue;
         char *folder = ves_folder_path(w->folder, "problems", &w->arena);
         if (!folder) return ves_diag_fail(w->diag, VES_MEMORY);
@@ -73,21 +73,21 @@ static ves_status sums_write(writer *w, const char *const *problem, ves_json *js
     char *suite = ves_folder_path(w->folder, "suite.yaml", &w->arena);
     if (!suite) return VES_MEMORY;
     sum_write(json, "suite.yaml", suite);
-    for (int k = 0; k < s->bouts; k++) {
-        const char *path = s->bout[k].path, *named = NULL;
-        if (s->bout[k].kind == VES_BOUT_LANDSCAPE) continue;
+    for (int k = 0; k < s->problems; k++) {
+        const char *path = s->problem[k].path, *named = NULL;
+        if (s->problem[k].kind == VES_SUITE_LANDSCAPE) continue;
         if (problem[k]) path = ves_bench_about_problem(w->folder, k, &w->arena);
         named = problem[k] ? ves_arena_format(&w->arena, "problems/%d.yaml", k)
                            : ves_study_absolute(path, &w->arena);
         if (!path || !named) return VES_MEMORY;
         sum_write(json, named, path);
     }
-    for (int e = 0; e < s->entrants; e++)
-        for (int k = 0; k < COMMAND && s->entrant[e].word[k]; k++) {
-            if (!is_file(s->entrant[e].word[k])) continue;
-            const char *named = ves_study_absolute(s->entrant[e].word[k], &w->arena);
+    for (int e = 0; e < s->methods; e++)
+        for (int k = 0; k < COMMAND && s->method[e].word[k]; k++) {
+            if (!is_file(s->method[e].word[k])) continue;
+            const char *named = ves_study_absolute(s->method[e].word[k], &w->arena);
             if (!named) return VES_MEMORY;
-            sum_write(json, named, s->entrant[e].word[k]);
+            sum_write(json, named, s->method[e].word[k]);
         }
     return VES_OK;
 }
@@ -102,7 +102,7 @@ static ves_status about_fill(writer *w, const char *const *problem, FILE *out)
     ves_json_text(&json, "suite", path);
     ves_json_text(&json, "version", VESICA_VERSION);
     ves_json_array(&json, "methods");
-    for (int k = 0; k < suite->entrants; k++) ves_json_text(&json, NULL, suite->entrant[k].name);
+    for (int k = 0; k < suite->methods; k++) ves_json_text(&json, NULL, suite->method[k].name);
     ves_json_end(&json, ']');
     ves_json_array(&json, "files");
     ves_status status = sums_write(w, problem, &json);

@@ -7,7 +7,7 @@
 #include "suite/suite.h"
 #include "vesica/diag.h"
 
-/* Writes suite.yaml, problems/NUMBER.yaml (problem[bouts]: the text as read, NULL: it is no file) and bench.json.
+/* Writes suite.yaml, problems/NUMBER.yaml (problem[problems]: the text as read, NULL: it is no file) and bench.json.
  * Again when a method is added. */
 ves_status ves_bench_about_write(const char *folder, const ves_suite *suite, const char *const *problem,
                                  ves_diag *diag);
@@ -23,7 +23,7 @@ typedef struct ves_bench_about {
 /* VES_STALE: something is not as it was. */
 ves_status ves_bench_about_read(const char *folder, ves_arena *arena, ves_bench_about *about, ves_diag *diag);
 
-/* The copy of problem file `bout`. NULL: out of memory. */
-char *ves_bench_about_problem(const char *folder, int bout, ves_arena *arena);
+/* The copy of the file of problem `problem`. NULL: out of memory. */
+char *ves_bench_about_problem(const char *folder, int problem, ves_arena *arena);
 
 #endif

@@ -19,8 +19,8 @@ typedef struct charts {
     ves_arena arena;
     ves_diag *diag;
     int room;             /* points of a line */
-    ves_chart_line *line; /* [entrants] */
-    double *x, *y;        /* [entrants][room] */
+    ves_chart_line *line; /* [methods] */
+    double *x, *y;        /* [methods][room] */
 } charts;
 
 static ves_status write(charts *c, const ves_chart *chart, const char *name)
@@ -30,9 +30,9 @@ static ves_status write(charts *c, const ves_chart *chart, const char *name)
 }
 
 /* The name in the legend; a method that draws no line says why. */
-static const char *name_of(charts *c, int entrant, bool drawn, const char *why)
+static const char *name_of(charts *c, int method, bool drawn, const char *why)
 {
-    const char *name = c->bench->suite->entrant[entrant].name;
+    const char *name = c->bench->suite->method[method].name;
     const char *noted = drawn ? name : ves_arena_format(&c->arena, "%s (%s)", name, why);
     return noted ? noted : name;
 }
@@ -56,7 +56,7 @@ static double right_end(const charts *c, int more)
 {
     const ves_suite *s = c->bench->suite;
     double most = 2;
-    for (int p = 0; p < s->bouts; p++)
+    for (int p = 0; p < s->problems; p++)
         most = fmax(most, ves_suite_budget(s, c->input->n[p]) / (c->input->n[p] + more));
     return most;
 }
@@ -67,9 +67,9 @@ static ves_status ecdf(charts *c)
     ves_chart chart = {.title = s->title,
                        .x = {"cost units for each variable", 0.1, right_end(c, 0), true},
                        .y = {"share of (problem, target, run) solved", 0, 1, false},
-                       .lines = s->entrants,
+                       .lines = s->methods,
                        .line = c->line};
-    for (int e = 0; e < s->entrants; e++) {
+    for (int e = 0; e < s->methods; e++) {
         size_t at = (size_t)e * c->room;
         int count = ves_profile_ecdf(c->input, &c->bench->tally, e, c->x + at, c->y + at);
         line_close(c, e, count, &chart.x);
@@ -85,9 +85,9 @@ static ves_status profile(charts *c, double tau, const char *name)
     ves_chart chart = {.title = s->title,
                        .x = {"cost units over (variables + 1)", 0.1, right_end(c, 1), true},
                        .y = {label, 0, 1, false},
-                       .lines = s->entrants,
+                       .lines = s->methods,
                        .line = c->line};
-    for (int e = 0; e < s->entrants; e++) {
+    for (int e = 0; e < s->methods; e++) {
         size_t at = (size_t)e * c->room;
         line_close(c, e, ves_profile_data(c->input, &c->bench->tally, e, tau, c->x + at, c->y + at),
                    &chart.x);
@@ -95,15 +95,15 @@ static ves_status profile(charts *c, double tau, const char *name)
     return write(c, &chart, name);
 }
 
-static ves_status convergence(charts *c, int bout)
+static ves_status convergence(charts *c, int problem)
 {
     const ves_suite *s = c->bench->suite;
-    ves_profile_band *band = ves_arena_take(&c->arena, (size_t)s->entrants, sizeof *band);
+    ves_profile_band *band = ves_arena_take(&c->arena, (size_t)s->methods, sizeof *band);
     char *path;
     if (!band) return ves_diag_fail(c->diag, VES_MEMORY);
     double high = 10 * least, low = INFINITY;
-    for (int e = 0; e < s->entrants; e++) {
-        if (!ves_profile_convergence(c->input, &c->bench->tally, e, bout, least, &band[e]))
+    for (int e = 0; e < s->methods; e++) {
+        if (!ves_profile_convergence(c->input, &c->bench->tally, e, problem, least, &band[e]))
             return ves_diag_fail(c->diag, VES_MEMORY);
         bool drawn = false;
         for (int k = 0; k < VES_PROFILE_POINTS; k++) {
@@ -119,15 +119,15 @@ static ves_status convergence(charts *c, int bout)
                                       .high = band[e].high,
                                       .stairs = true};
     }
-    VES_TRY(
-        ves_folder_picture(c->bench->folder, "convergence", s->bout[bout].name, &c->arena, &path, c->diag));
+    VES_TRY(ves_folder_picture(c->bench->folder, "convergence", s->problem[problem].name, &c->arena, &path,
+                               c->diag));
     double bottom = pow(10, floor(log10(fmin(low, high / 10)))), top = pow(10, ceil(log10(high)));
     const ves_chart chart = {
-        .title = s->bout[bout].name,
-        .x = {"cost units", 1, fmax(ves_suite_budget(s, c->input->n[bout]), 2), true},
+        .title = s->problem[problem].name,
+        .x = {"cost units", 1, fmax(ves_suite_budget(s, c->input->n[problem]), 2), true},
         .y = {"best feasible value minus the reference (1e-10: there, or below): median, quartiles", bottom,
               top, true},
-        .lines = s->entrants,
+        .lines = s->methods,
         .line = c->line};
     return ves_chart_write(&chart, path, c->diag);
 }
@@ -140,7 +140,7 @@ static ves_status all(charts *c)
     } profiles[] = {{1e-1, "profile-1e-1.png"}, {1e-3, "profile-1e-3.png"}, {1e-5, "profile-1e-5.png"}};
     VES_TRY(ecdf(c));
     for (int k = 0; k < 3; k++) VES_TRY(profile(c, profiles[k].tau, profiles[k].name));
-    for (int p = 0; p < c->bench->suite->bouts; p++) VES_TRY(convergence(c, p));
+    for (int p = 0; p < c->bench->suite->problems; p++) VES_TRY(convergence(c, p));
     return VES_OK;
 }
 
@@ -148,9 +148,9 @@ ves_status ves_bench_charts_write(const ves_bench *bench, const ves_tally_input 
 {
     const ves_suite *s = bench->suite;
     charts c = {.bench = bench, .input = input, .diag = diag};
-    c.room = s->bouts * s->seeds * VES_PROFILE_TARGETS + 2;
-    size_t points = (size_t)c.room * (size_t)s->entrants;
-    c.line = ves_arena_take(&c.arena, (size_t)s->entrants, sizeof *c.line);
+    c.room = s->problems * s->seeds * VES_PROFILE_TARGETS + 2;
+    size_t points = (size_t)c.room * (size_t)s->methods;
+    c.line = ves_arena_take(&c.arena, (size_t)s->methods, sizeof *c.line);
     c.x = ves_arena_take(&c.arena, points, sizeof *c.x);
     c.y = ves_arena_take(&c.arena, points, sizeof *c.y);
     ves_status status = c.line && c.x && c.y ? all(&c) : ves_diag_fail(diag, VES_MEMORY);

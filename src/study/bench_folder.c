@@ -249,7 +249,7 @@ static void line_read(const ves_bench_files *files, const ves_bench *bench, cons
     int index = ves_bench_run_of(line, suite);
     ves_outcome *o = index < 0 ? NULL : &bench->outcome[index];
     if (o && o->done) return; /* twice */
-    int n = o ? bench->bout[ves_suite_run(suite, index).bout].n : 0;
+    int n = o ? bench->problem[ves_suite_run(suite, index).problem].n : 0;
     if (!o || !ves_bench_run_read(line, n, ves_suite_budget(suite, n), o)) {
         ves_diag_add(files->diag, VES_WARNING, VES_SYNTAX, NOWHERE,
                      "\"%s\": line %d is damaged, or of no run of this suite: left out", rest->path,

@@ -22,7 +22,7 @@ typedef struct ves_bench_files {
 ves_status ves_bench_files_take(ves_bench_files *files, const char *folder, ves_arena *arena, ves_diag *diag);
 /* Makes what a new folder begins with. */
 ves_status ves_bench_files_begin(ves_bench_files *files);
-/* Opens those of a folder, and reads the runs that hold into bench->outcome. bench->bout is known. What is damaged is
+/* Opens those of a folder, and reads the runs that hold into bench->outcome. bench->problem is known. What is damaged is
  * told, and done again. */
 ves_status ves_bench_files_again(ves_bench_files *files, const ves_bench *bench);
 /* Another rank joins the one that has the folder; in the end that one reads what the others have written. */

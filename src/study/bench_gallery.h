@@ -2,10 +2,10 @@
 #ifndef VES_STUDY_BENCH_GALLERY_H
 #define VES_STUDY_BENCH_GALLERY_H
 
-#include "study/ring.h"
+#include "study/testbed.h"
 
 /* Into the folder: optima/PROBLEM.png, of each problem file, the best optima with how many runs of each method
- * ended there. ring: [bouts] */
-ves_status ves_bench_gallery_write(const ves_bench *bench, ves_ring *ring, ves_diag *diag);
+ * ended there. testbed: [problems] */
+ves_status ves_bench_gallery_write(const ves_bench *bench, ves_testbed *testbed, ves_diag *diag);
 
 #endif

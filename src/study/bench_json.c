@@ -45,19 +45,19 @@ static void head(const ves_bench *bench, ves_json *json)
 }
 
 /* A maximum with its own sign, not that of what is minimised. */
-static double told(const ves_bench *bench, int bout, double value)
+static double told(const ves_bench *bench, int problem, double value)
 {
-    return bench->bout[bout].maximize ? -value : value;
+    return bench->problem[problem].maximize ? -value : value;
 }
 
 static void problem(const ves_bench *bench, int p, bool clocks, ves_json *json)
 {
     const ves_suite *s = bench->suite;
-    const ves_bench_bout *facts = &bench->bout[p];
+    const ves_bench_problem *facts = &bench->problem[p];
     const ves_reference *r = &bench->tally.reference[p];
     bool found = !r->known && !isnan(r->value);
     ves_json_object(json, NULL);
-    ves_json_text(json, "name", s->bout[p].name);
+    ves_json_text(json, "name", s->problem[p].name);
     ves_json_integer(json, "n", facts->n);
     ves_json_integer(json, "constraints", facts->m);
     ves_json_integer(json, "equations", facts->equalities);
@@ -69,7 +69,7 @@ static void problem(const ves_bench *bench, int p, bool clocks, ves_json *json)
     ves_json_flag(json, "known", r->known);
     ves_json_flag(json, "polished", r->polished);
     ves_json_number(json, "better_than_known", told(bench, p, r->below));
-    ves_json_text(json, "found_by", found ? s->entrant[r->entrant].name : NULL);
+    ves_json_text(json, "found_by", found ? s->method[r->method].name : NULL);
     ves_json_number(json, "found_in", found ? (double)r->seed : NAN);
     if (clocks) ves_json_number(json, "value_s", facts->seconds);
     if (clocks) ves_json_number(json, "gradient_s", facts->seconds_gradient);
@@ -79,10 +79,10 @@ static void problem(const ves_bench *bench, int p, bool clocks, ves_json *json)
 static void score(const ves_bench *bench, int e, int p, bool clocks, ves_json *json)
 {
     const ves_suite *s = bench->suite;
-    const ves_score *c = &bench->tally.score[e * s->bouts + p];
+    const ves_score *c = &bench->tally.score[e * s->problems + p];
     ves_json_object(json, NULL);
-    ves_json_text(json, "method", s->entrant[e].name);
-    ves_json_text(json, "problem", s->bout[p].name);
+    ves_json_text(json, "method", s->method[e].name);
+    ves_json_text(json, "problem", s->problem[p].name);
     ves_json_integer(json, "runs", c->runs);
     ves_json_integer(json, "failed", c->failed);
     ves_json_text(json, "reason", c->reason);
@@ -105,7 +105,7 @@ static void total(const ves_bench *bench, int e, bool clocks, ves_json *json)
 {
     const ves_total *c = &bench->tally.total[e];
     ves_json_object(json, NULL);
-    ves_json_text(json, "name", bench->suite->entrant[e].name);
+    ves_json_text(json, "name", bench->suite->method[e].name);
     ves_json_integer(json, "runs", c->runs);
     ves_json_integer(json, "failed", c->failed);
     ves_json_integer(json, "feasible", c->feasible);
@@ -122,12 +122,12 @@ static void pairs(const ves_bench *bench, ves_json *json)
 {
     const ves_suite *s = bench->suite;
     ves_json_array(json, "pairs");
-    for (int i = 0; i < s->entrants; i++)
-        for (int j = i + 1; j < s->entrants; j++) {
-            const ves_pair *pair = &bench->tally.pair[i * s->entrants + j];
+    for (int i = 0; i < s->methods; i++)
+        for (int j = i + 1; j < s->methods; j++) {
+            const ves_pair *pair = &bench->tally.pair[i * s->methods + j];
             ves_json_object(json, NULL);
-            ves_json_text(json, "first", s->entrant[i].name);
-            ves_json_text(json, "second", s->entrant[j].name);
+            ves_json_text(json, "first", s->method[i].name);
+            ves_json_text(json, "second", s->method[j].name);
             ves_json_number(json, "a12", pair->effect);
             ves_json_number(json, "p", pair->p);
             ves_json_number(json, "p_by_problem", pair->by_problem);
@@ -146,11 +146,11 @@ static void optima(const ves_bench *bench, ves_json *json)
         const ves_bench_optimum *o = &bench->optimum[k];
         const ves_outcome *run = &bench->outcome[o->run];
         ves_json_object(json, NULL);
-        ves_json_text(json, "problem", s->bout[o->bout].name);
-        ves_json_number(json, "value", told(bench, o->bout, o->value));
+        ves_json_text(json, "problem", s->problem[o->problem].name);
+        ves_json_number(json, "value", told(bench, o->problem, o->value));
         ves_json_integer(json, "run", o->run);
         ves_json_object(json, "hits");
-        for (int e = 0; e < s->entrants; e++) ves_json_integer(json, s->entrant[e].name, o->hits[e]);
+        for (int e = 0; e < s->methods; e++) ves_json_integer(json, s->method[e].name, o->hits[e]);
         ves_json_end(json, '}');
         numbers(json, "x", run->x, run->n);
         ves_json_end(json, '}');
@@ -166,14 +166,14 @@ void ves_bench_json(const ves_bench *bench, bool clocks, ves_json *json)
     if (clocks) ves_json_number(json, "wall_s", bench->wall);
     if (clocks) ves_json_text(json, "folder", bench->folder);
     ves_json_array(json, "problems");
-    for (int p = 0; p < s->bouts; p++) problem(bench, p, clocks, json);
+    for (int p = 0; p < s->problems; p++) problem(bench, p, clocks, json);
     ves_json_end(json, ']');
     ves_json_array(json, "methods");
-    for (int e = 0; e < s->entrants; e++) total(bench, e, clocks, json);
+    for (int e = 0; e < s->methods; e++) total(bench, e, clocks, json);
     ves_json_end(json, ']');
     ves_json_array(json, "scores");
-    for (int p = 0; p < s->bouts; p++)
-        for (int e = 0; e < s->entrants; e++) score(bench, e, p, clocks, json);
+    for (int p = 0; p < s->problems; p++)
+        for (int e = 0; e < s->methods; e++) score(bench, e, p, clocks, json);
     ves_json_end(json, ']');
     pairs(bench, json);
     optima(bench, json);

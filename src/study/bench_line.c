@@ -27,8 +27,8 @@ void ves_bench_run_write(const ves_suite *suite, int index, const ves_outcome *o
     ves_json json = {.out = out, .line = true};
     ves_json_object(&json, NULL);
     ves_json_integer(&json, "run", index);
-    ves_json_text(&json, "method", suite->entrant[place.entrant].name);
-    ves_json_text(&json, "problem", suite->bout[place.bout].name);
+    ves_json_text(&json, "method", suite->method[place.method].name);
+    ves_json_text(&json, "problem", suite->problem[place.problem].name);
     ves_json_integer(&json, "seed", place.seed);
     ves_json_text(&json, "end", ENDS[o->failed ? 0 : o->hit ? 1 : 2]);
     ves_json_text(&json, "reason", *o->reason ? o->reason : NULL);
@@ -91,8 +91,8 @@ int ves_bench_run_of(const ves_node *line, const ves_suite *suite)
     if (run < 0) return -1;
     ves_suite_place place = ves_suite_run(suite, run);
     bool fits = count_of(line, "seed", INT_MAX) == place.seed &&
-                word_is(line, "method", suite->entrant[place.entrant].name) &&
-                word_is(line, "problem", suite->bout[place.bout].name);
+                word_is(line, "method", suite->method[place.method].name) &&
+                word_is(line, "problem", suite->problem[place.problem].name);
     return fits ? run : -1;
 }
 

@@ -18,16 +18,16 @@ static ves_status descend(const ves_search_problem *problem, long evaluations, c
     return status == VES_MEMORY ? status : VES_OK; /* what else fails has found nothing */
 }
 
-ves_status ves_bench_polish(ves_ring *ring, const ves_suite *suite, const ves_outcome *outcome,
+ves_status ves_bench_polish(ves_testbed *testbed, const ves_suite *suite, const ves_outcome *outcome,
                             bool (*stopped)(void *), void *data, double *value)
 {
     ves_arena arena = {0};
     ves_pose pose;
     *value = NAN;
-    ves_status status = ves_ring_pose(ring, 0, 0, &arena, &pose);
+    ves_status status = ves_testbed_pose(testbed, 0, 0, &arena, &pose);
     ves_search_problem *p = &pose.problem;
     p->tolerance = share * (p->tolerance > 0 ? p->tolerance : VES_FEASIBLE);
-    bool own = ring->bout->kind == VES_BOUT_FILE;
+    bool own = testbed->problem->kind == VES_SUITE_FILE;
     ves_meter meter = {.inner = p,
                        .budget = HUGE_VAL,
                        .cost = 1,

@@ -4,11 +4,11 @@
 #ifndef VES_STUDY_BENCH_POLISH_H
 #define VES_STUDY_BENCH_POLISH_H
 
-#include "study/ring.h"
+#include "study/testbed.h"
 
 /* The least value that a descent from outcome->x finds with a thousandth of what constraints are allowed; NAN: none.
  * stopped may be NULL. */
-ves_status ves_bench_polish(ves_ring *ring, const ves_suite *suite, const ves_outcome *outcome,
+ves_status ves_bench_polish(ves_testbed *testbed, const ves_suite *suite, const ves_outcome *outcome,
                             bool (*stopped)(void *), void *data, double *value);
 
 #endif

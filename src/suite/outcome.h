@@ -2,7 +2,7 @@
 #ifndef VES_SUITE_OUTCOME_H
 #define VES_SUITE_OUTCOME_H
 
-#include "suite/contest.h"
+#include "suite/trial.h"
 
 typedef struct ves_outcome {
     bool done;   /* the rest holds */
@@ -18,7 +18,7 @@ typedef struct ves_outcome {
     double *x; /* [n] the best, in the unit box */
     int steps;
     ves_step *step;      /* its improvements */
-    double wall, inside; /* s: of the run without what is not the method's (ves_contest.aside), and of it in
+    double wall, inside; /* s: of the run without what is not the method's (ves_trial.aside), and of it in
                             the problem; NAN: not known */
     double cpu;          /* s of its thread's processor; NAN: not known, or the method is another process */
 } ves_outcome;

@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-static const ves_outcome *run_of(const ves_tally_input *input, int entrant, int bout, int seed)
+static const ves_outcome *run_of(const ves_tally_input *input, int method, int problem, int seed)
 {
     const ves_suite *s = input->suite;
-    return &input->outcome[((size_t)entrant * s->bouts + bout) * s->seeds + seed];
+    return &input->outcome[((size_t)method * s->problems + problem) * s->seeds + seed];
 }
 
 /* Ascending times, INFINITY among them, to stairs of shares from the first time on; `all` of them count. */
@@ -29,15 +29,15 @@ static double gap_of(const ves_suite *suite, int k)
     return exp(first + (last - first) * k / (VES_PROFILE_TARGETS - 1));
 }
 
-int ves_profile_ecdf(const ves_tally_input *input, const ves_tally *tally, int entrant, double *x, double *y)
+int ves_profile_ecdf(const ves_tally_input *input, const ves_tally *tally, int method, double *x, double *y)
 {
     const ves_suite *s = input->suite;
     int count = 0;
-    for (int p = 0; p < s->bouts; p++)
+    for (int p = 0; p < s->problems; p++)
         for (int k = 0; k < s->seeds; k++) {
-            const ves_outcome *o = run_of(input, entrant, p, k);
+            const ves_outcome *o = run_of(input, method, p, k);
             for (int t = 0; o->done && t < VES_PROFILE_TARGETS; t++) {
-                double value = ves_suite_value(&s->bout[p], tally->reference[p].value, gap_of(s, t));
+                double value = ves_suite_value(&s->problem[p], tally->reference[p].value, gap_of(s, t));
                 x[count++] = ves_outcome_reach(o, value) / input->n[p];
             }
         }
@@ -51,21 +51,21 @@ static double first_value(const ves_outcome *o)
     return NAN;
 }
 
-int ves_profile_data(const ves_tally_input *input, const ves_tally *tally, int entrant, double tau, double *x,
+int ves_profile_data(const ves_tally_input *input, const ves_tally *tally, int method, double tau, double *x,
                      double *y)
 {
     const ves_suite *s = input->suite;
     int count = 0;
-    for (int p = 0; p < s->bouts; p++)
+    for (int p = 0; p < s->problems; p++)
         for (int k = 0; k < s->seeds; k++) {
             double first = NAN, best = INFINITY;
-            for (int e = 0; e < s->entrants; e++) {
+            for (int e = 0; e < s->methods; e++) {
                 const ves_outcome *o = run_of(input, e, p, k);
                 if (!o->done) continue;
                 first = fmax(first, first_value(o)); /* of a number and NAN: the number */
                 best = fmin(best, ves_tally_value(o));
             }
-            const ves_outcome *o = run_of(input, entrant, p, k);
+            const ves_outcome *o = run_of(input, method, p, k);
             if (!o->done) continue;
             best = fmax(best, tally->reference[p].value);
             double value = best + tau * (first - best);
@@ -74,18 +74,18 @@ int ves_profile_data(const ves_tally_input *input, const ves_tally *tally, int e
     return stairs(x, y, count, count);
 }
 
-bool ves_profile_convergence(const ves_tally_input *input, const ves_tally *tally, int entrant, int bout,
+bool ves_profile_convergence(const ves_tally_input *input, const ves_tally *tally, int method, int problem,
                              double least, ves_profile_band *band)
 {
     const ves_suite *s = input->suite;
-    double budget = ves_suite_budget(s, input->n[bout]), reference = tally->reference[bout].value;
+    double budget = ves_suite_budget(s, input->n[problem]), reference = tally->reference[problem].value;
     double *gap = ves_memory_take((size_t)s->seeds * sizeof *gap);
     if (!gap) return false;
     for (int i = 0; i < VES_PROFILE_POINTS; i++) {
         int n = 0;
         band->x[i] = exp(log(fmax(budget, 2)) * i / (VES_PROFILE_POINTS - 1));
         for (int k = 0; k < s->seeds; k++) {
-            const ves_outcome *o = run_of(input, entrant, bout, k);
+            const ves_outcome *o = run_of(input, method, problem, k);
             if (o->done) gap[n++] = fmax(ves_outcome_value(o, band->x[i] * (1 + 1e-12)) - reference, least);
         }
         ves_statistics_sort(gap, n);

@@ -16,27 +16,27 @@ double ves_suite_budget(const ves_suite *suite, int n)
     return floor(fmin(suite->per_dimension * n, suite->most));
 }
 
-double ves_suite_value(const ves_bout *bout, double reference, double gap)
+double ves_suite_value(const ves_suite_problem *problem, double reference, double gap)
 {
     double size = fabs(reference);
-    if (bout->kind != VES_BOUT_FILE || size == 0) size = fmax(1, size);
+    if (problem->kind != VES_SUITE_FILE || size == 0) size = fmax(1, size);
     return reference + gap * size;
 }
 
 int ves_suite_runs(const ves_suite *suite)
 {
-    return suite->entrants * suite->bouts * suite->seeds;
+    return suite->methods * suite->problems * suite->seeds;
 }
 
 ves_suite_place ves_suite_run(const ves_suite *suite, int index)
 {
-    int per_entrant = suite->bouts * suite->seeds;
-    return (ves_suite_place){.entrant = index / per_entrant,
-                             .bout = index % per_entrant / suite->seeds,
+    int per_method = suite->problems * suite->seeds;
+    return (ves_suite_place){.method = index / per_method,
+                             .problem = index % per_method / suite->seeds,
                              .seed = index % suite->seeds};
 }
 
-uint64_t ves_suite_seed(const ves_suite *suite, const ves_bout *bout, int seed)
+uint64_t ves_suite_seed(const ves_suite *suite, const ves_suite_problem *problem, int seed)
 {
-    return ves_instance_hash(bout->name, suite->seed + ((uint64_t)seed << 40)) >> 12;
+    return ves_instance_hash(problem->name, suite->seed + ((uint64_t)seed << 40)) >> 12;
 }

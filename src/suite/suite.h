@@ -12,11 +12,11 @@
 
 enum { VES_TARGETS = 3, VES_SUITE_WORDS = 32 };
 
-typedef enum ves_bout_kind { VES_BOUT_LANDSCAPE, VES_BOUT_FILE, VES_BOUT_PLUGIN } ves_bout_kind;
+typedef enum ves_suite_kind { VES_SUITE_LANDSCAPE, VES_SUITE_FILE, VES_SUITE_PLUGIN } ves_suite_kind;
 
 /* A problem of a suite. */
-typedef struct ves_bout {
-    ves_bout_kind kind;
+typedef struct ves_suite_problem {
+    ves_suite_kind kind;
     ves_mark mark;
     const char *name;               /* of its own: "rot_rastrigin 10" */
     const ves_landscape *landscape; /* LANDSCAPE */
@@ -27,13 +27,13 @@ typedef struct ves_bout {
     const ves_override *set;
     const char *objective; /* PLUGIN: which of those in it */
     double optimum;        /* given; NAN: the landscape's, or not known */
-} ves_bout;
+} ves_suite_problem;
 
-typedef enum ves_entrant_kind { VES_ENTRANT_SEARCH, VES_ENTRANT_NLOPT, VES_ENTRANT_PROGRAM } ves_entrant_kind;
+typedef enum ves_method_kind { VES_METHOD_SEARCH, VES_METHOD_NLOPT, VES_METHOD_PROGRAM } ves_method_kind;
 
 /* A method of a suite. */
-typedef struct ves_entrant {
-    ves_entrant_kind kind;
+typedef struct ves_method {
+    ves_method_kind kind;
     ves_mark mark;
     const char *name;
     bool values;               /* is not given gradients */
@@ -43,15 +43,15 @@ typedef struct ves_entrant {
     const char *local;         /* NLOPT: for those that need one inside, or NULL */
     const char *word[VES_SUITE_WORDS + 1]; /* PROGRAM: ends with NULL */
     double seconds;                        /* PROGRAM: the longest wait for a line */
-} ves_entrant;
+} ves_method;
 
 typedef struct ves_suite {
     ves_arena arena;
     const char *path, *name, *title; /* name: the file's without folder and ending */
     const char *text;                /* as run */
-    int bouts, entrants;
-    const ves_bout *bout;
-    const ves_entrant *entrant;
+    int problems, methods;
+    const ves_suite_problem *problem;
+    const ves_method *method;
     int seeds;                   /* runs of each method on each problem; run k has instance k */
     uint64_t seed;               /* what all of them come from */
     double per_dimension, most;  /* budget: the lesser of per_dimension * n and most, in cost units */
@@ -66,17 +66,17 @@ double ves_suite_budget(const ves_suite *suite, int n);
 
 /* The value that meets a target: reference + gap max(1, |reference|); of a problem file, whose values have
  * units, reference + gap |reference|. */
-double ves_suite_value(const ves_bout *bout, double reference, double gap);
+double ves_suite_value(const ves_suite_problem *problem, double reference, double gap);
 
 /* The runs in their order: methods, then problems, then seeds, so that a method that is added comes last. */
 typedef struct ves_suite_place {
-    int entrant, bout, seed;
+    int method, problem, seed;
 } ves_suite_place;
 int ves_suite_runs(const ves_suite *suite);
 ves_suite_place ves_suite_run(const ves_suite *suite, int index);
 
 /* What the random numbers of a run come from: the problem and the run's number alone, so that all methods
  * begin at the same points. */
-uint64_t ves_suite_seed(const ves_suite *suite, const ves_bout *bout, int seed);
+uint64_t ves_suite_seed(const ves_suite *suite, const ves_suite_problem *problem, int seed);
 
 #endif

@@ -6,14 +6,15 @@
 /* The runs of one method on one problem. */
 typedef struct bundle {
     const ves_tally_input *input;
-    int entrant, bout;
+    int method, problem;
     const ves_outcome *run; /* [seeds] */
 } bundle;
 
-static bundle bundle_of(const ves_tally_input *input, int entrant, int bout)
+static bundle bundle_of(const ves_tally_input *input, int method, int problem)
 {
     const ves_suite *s = input->suite;
-    return (bundle){input, entrant, bout, input->outcome + ((size_t)entrant * s->bouts + bout) * s->seeds};
+    return (bundle){input, method, problem,
+                    input->outcome + ((size_t)method * s->problems + problem) * s->seeds};
 }
 
 double ves_tally_value(const ves_outcome *outcome)
@@ -25,51 +26,53 @@ double ves_tally_value(const ves_outcome *outcome)
 static const double nothing = 1e-2;
 
 /* A known optimum is contradicted by a value below it by more than constraints may be worth. */
-static double contradiction(const ves_suite *s, const ves_bout *bout, double optimum, const ves_outcome *o)
+static double contradiction(const ves_suite *s, const ves_suite_problem *problem, double optimum,
+                            const ves_outcome *o)
 {
     double value = ves_tally_value(o), gap = s->target[o->violation <= nothing ? VES_TARGETS - 1 : 1];
-    double size = ves_suite_value(bout, optimum, gap) - optimum;
+    double size = ves_suite_value(problem, optimum, gap) - optimum;
     return o->done && value < optimum - size ? value : NAN;
 }
 
 /* The best of those runs whose violation is at most so much; unless they are better than what is there. */
-static void best_of(const ves_tally_input *input, int bout, double allowed, ves_reference *r)
+static void best_of(const ves_tally_input *input, int problem, double allowed, ves_reference *r)
 {
     const ves_suite *s = input->suite;
-    for (int e = 0; e < s->entrants; e++) {
-        bundle b = bundle_of(input, e, bout);
+    for (int e = 0; e < s->methods; e++) {
+        bundle b = bundle_of(input, e, problem);
         for (int k = 0; k < s->seeds; k++) {
             bool counts = b.run[k].done && b.run[k].violation <= allowed;
             double value = counts ? ves_tally_value(&b.run[k]) : INFINITY;
-            if (isfinite(value) && !(r->value <= value)) r->value = value, r->entrant = e, r->seed = k;
+            if (isfinite(value) && !(r->value <= value)) r->value = value, r->method = e, r->seed = k;
         }
     }
 }
 
-ves_reference ves_tally_reference(const ves_tally_input *input, int bout)
+ves_reference ves_tally_reference(const ves_tally_input *input, int problem)
 {
     const ves_suite *s = input->suite;
-    const ves_bout *b = &s->bout[bout];
-    ves_reference r = {.value = input->optimum[bout], .known = !isnan(input->optimum[bout]), .below = NAN};
-    if (!r.known) best_of(input, bout, 1, &r);
-    double polished = input->polished ? input->polished[bout] : NAN;
+    const ves_suite_problem *b = &s->problem[problem];
+    ves_reference r = {
+        .value = input->optimum[problem], .known = !isnan(input->optimum[problem]), .below = NAN};
+    if (!r.known) best_of(input, problem, 1, &r);
+    double polished = input->polished ? input->polished[problem] : NAN;
     if (!r.known && polished <= ves_suite_value(b, r.value, s->target[1])) {
         r.value = polished; /* more than the best, where that used up what constraints are allowed */
         r.polished = true;
-        best_of(input, bout, nothing, &r);
+        best_of(input, problem, nothing, &r);
     }
-    for (int e = 0; e < s->entrants && r.known; e++)
+    for (int e = 0; e < s->methods && r.known; e++)
         for (int k = 0; k < s->seeds; k++)
-            r.below = fmin(r.below, contradiction(s, b, r.value, &bundle_of(input, e, bout).run[k]));
+            r.below = fmin(r.below, contradiction(s, b, r.value, &bundle_of(input, e, problem).run[k]));
     return r;
 }
 
-double ves_tally_dearness(const ves_suite *suite, const ves_bout *bout, const ves_outcome *outcome,
-                          double reference)
+double ves_tally_dearness(const ves_suite *suite, const ves_suite_problem *problem,
+                          const ves_outcome *outcome, double reference)
 {
     double sum = 0;
     for (int t = 0; t < VES_TARGETS; t++) {
-        double cost = ves_outcome_reach(outcome, ves_suite_value(bout, reference, suite->target[t]));
+        double cost = ves_outcome_reach(outcome, ves_suite_value(problem, reference, suite->target[t]));
         sum += log10(isfinite(cost) && !isnan(reference) ? cost : 10 * outcome->budget);
     }
     return sum / VES_TARGETS;
@@ -84,7 +87,7 @@ typedef struct space {
 static void score_target(const bundle *b, double reference, int t, space *room, ves_score *score)
 {
     const ves_suite *s = b->input->suite;
-    double value = ves_suite_value(&s->bout[b->bout], reference, s->target[t]);
+    double value = ves_suite_value(&s->problem[b->problem], reference, s->target[t]);
     bool last = t == VES_TARGETS - 1, timed = true;
     int n = 0;
     for (int k = 0; k < s->seeds; k++) {
@@ -127,12 +130,12 @@ static void score_ends(const bundle *b, space *room, ves_score *score)
     score->best = n ? room->a[0] : NAN;
 }
 
-static void total_of(const ves_tally *tally, int entrant, ves_total *total)
+static void total_of(const ves_tally *tally, int method, ves_total *total)
 {
     const ves_suite *s = tally->suite;
     double own = 0, parts = 0;
-    for (int p = 0; p < s->bouts; p++) {
-        const ves_score *score = &tally->score[entrant * s->bouts + p];
+    for (int p = 0; p < s->problems; p++) {
+        const ves_score *score = &tally->score[method * s->problems + p];
         total->runs += score->runs;
         total->failed += score->failed;
         total->feasible += score->feasible;
@@ -145,9 +148,9 @@ static void total_of(const ves_tally *tally, int entrant, ves_total *total)
 
 /* Room for the comparison of two methods: of the runs that both have done, and of the means of problems. */
 typedef struct pairing {
-    double *x, *y;           /* [bouts * seeds] */
-    double *x_mean, *y_mean; /* [bouts] */
-    double *p, *q;           /* [entrants^2] of the pairs so far: by runs, by problems */
+    double *x, *y;           /* [problems * seeds] */
+    double *x_mean, *y_mean; /* [problems] */
+    double *p, *q;           /* [methods^2] of the pairs so far: by runs, by problems */
 } pairing;
 
 static double mean(const double *x, int n)
@@ -157,9 +160,9 @@ static double mean(const double *x, int n)
     return sum / n;
 }
 
-static bool failed_everywhere(const ves_tally *tally, int entrant)
+static bool failed_everywhere(const ves_tally *tally, int method)
 {
-    return tally->total[entrant].failed == tally->total[entrant].runs;
+    return tally->total[method].failed == tally->total[method].runs;
 }
 
 static ves_pair pair_of(const ves_tally *tally, const ves_tally_input *input, int first, int second,
@@ -170,13 +173,13 @@ static ves_pair pair_of(const ves_tally *tally, const ves_tally_input *input, in
     int n = 0, problems = 0;
     ves_pair pair = {.effect = NAN, .p = NAN, .by_problem = NAN, .least = NAN};
     if (failed_everywhere(tally, first) || failed_everywhere(tally, second)) return pair;
-    for (int p = 0; p < s->bouts; p++) {
+    for (int p = 0; p < s->problems; p++) {
         bundle a = bundle_of(input, first, p), b = bundle_of(input, second, p);
         int begin = n;
         for (int k = 0; k < s->seeds; k++) {
             if (!a.run[k].done || !b.run[k].done) continue;
-            x[n] = ves_tally_dearness(s, &s->bout[p], &a.run[k], tally->reference[p].value);
-            y[n++] = ves_tally_dearness(s, &s->bout[p], &b.run[k], tally->reference[p].value);
+            x[n] = ves_tally_dearness(s, &s->problem[p], &a.run[k], tally->reference[p].value);
+            y[n++] = ves_tally_dearness(s, &s->problem[p], &b.run[k], tally->reference[p].value);
         }
         if (n == begin) continue;
         effect += ves_statistics_effect(x + begin, n - begin, y + begin, n - begin);
@@ -204,13 +207,13 @@ static void mirror(const ves_pair *pair, ves_pair *other)
 /* Each pair is tested once; the other half of the matrix mirrors it. */
 static bool pairs_fill(const ves_tally_input *input, ves_tally *tally)
 {
-    int e = tally->suite->entrants, count = 0, tests = 0;
-    size_t bouts = (size_t)tally->suite->bouts, runs = bouts * (size_t)tally->suite->seeds,
+    int e = tally->suite->methods, count = 0, tests = 0;
+    size_t problems = (size_t)tally->suite->problems, runs = problems * (size_t)tally->suite->seeds,
            square = (size_t)e * (size_t)e;
-    double *all = ves_arena_take(&tally->arena, 2 * runs + 2 * bouts + 2 * square, sizeof *all);
+    double *all = ves_arena_take(&tally->arena, 2 * runs + 2 * problems + 2 * square, sizeof *all);
     if (!all) return false;
-    pairing room = {.x = all, .y = all + runs, .x_mean = all + 2 * runs, .p = all + 2 * runs + 2 * bouts};
-    room.y_mean = room.x_mean + bouts;
+    pairing room = {.x = all, .y = all + runs, .x_mean = all + 2 * runs, .p = all + 2 * runs + 2 * problems};
+    room.y_mean = room.x_mean + problems;
     room.q = room.p + square;
     for (int i = 0; i < e; i++)
         for (int j = i + 1; j < e; j++, count++) {
@@ -247,7 +250,7 @@ ves_finding ves_tally_finding(const ves_pair *pair)
 
 static bool take(ves_tally *tally, space *room)
 {
-    size_t e = (size_t)tally->suite->entrants, b = (size_t)tally->suite->bouts,
+    size_t e = (size_t)tally->suite->methods, b = (size_t)tally->suite->problems,
            k = (size_t)tally->suite->seeds;
     tally->reference = ves_arena_take(&tally->arena, b, sizeof *tally->reference);
     tally->score = ves_arena_take(&tally->arena, e * b, sizeof *tally->score);
@@ -265,10 +268,10 @@ bool ves_tally_init(const ves_tally_input *input, ves_tally *tally)
     space room;
     *tally = (ves_tally){.suite = s};
     if (!take(tally, &room)) return false;
-    for (int p = 0; p < s->bouts; p++) tally->reference[p] = ves_tally_reference(input, p);
-    for (int e = 0; e < s->entrants; e++) {
-        for (int p = 0; p < s->bouts; p++) {
-            ves_score *score = &tally->score[e * s->bouts + p];
+    for (int p = 0; p < s->problems; p++) tally->reference[p] = ves_tally_reference(input, p);
+    for (int e = 0; e < s->methods; e++) {
+        for (int p = 0; p < s->problems; p++) {
+            ves_score *score = &tally->score[e * s->problems + p];
             bundle b = bundle_of(input, e, p);
             score_ends(&b, &room, score);
             for (int t = 0; t < VES_TARGETS; t++)

@@ -9,19 +9,19 @@
 typedef struct ves_tally_input {
     const ves_suite *suite;
     const ves_outcome *outcome; /* [ves_suite_runs]; those that are not done are left out */
-    const double *optimum;      /* [bouts]; NAN: not known */
-    const double *polished;     /* [bouts] what a polish of the best run came to, its constraints met exactly;
+    const double *optimum;      /* [problems]; NAN: not known */
+    const double *polished; /* [problems] what a polish of the best run came to, its constraints met exactly;
                                    NAN: nothing; NULL: no polish */
-    const int *n;               /* [bouts] variables */
+    const int *n;           /* [problems] variables */
 } ves_tally_input;
 
 /* What gaps are measured from. */
 typedef struct ves_reference {
-    double value;      /* NAN: no run was feasible */
-    bool known;        /* else the best of all runs: */
-    int entrant, seed; /* by whom */
-    bool polished;     /* ... and then a polish of that one, or a run that met its constraints as exactly */
-    double below;      /* known: a value clearly below it, so that it cannot be the least; NAN: none */
+    double value;     /* NAN: no run was feasible */
+    bool known;       /* else the best of all runs: */
+    int method, seed; /* by whom */
+    bool polished;    /* ... and then a polish of that one, or a run that met its constraints as exactly */
+    double below;     /* known: a value clearly below it, so that it cannot be the least; NAN: none */
 } ves_reference;
 
 /* One method on one problem. */
@@ -71,10 +71,10 @@ typedef enum ves_finding {
 typedef struct ves_tally {
     ves_arena arena;
     const ves_suite *suite;
-    ves_reference *reference; /* [bouts] */
-    ves_score *score;         /* [entrants][bouts] */
-    ves_total *total;         /* [entrants] */
-    ves_pair *pair;           /* [entrants][entrants]; first against second */
+    ves_reference *reference; /* [problems] */
+    ves_score *score;         /* [methods][problems] */
+    ves_total *total;         /* [methods] */
+    ves_pair *pair;           /* [methods][methods]; first against second */
 } ves_tally;
 
 /* False: out of memory. */
@@ -82,15 +82,15 @@ bool ves_tally_init(const ves_tally_input *input, ves_tally *tally);
 void ves_tally_destroy(ves_tally *tally);
 
 /* What gaps of a problem are measured from. */
-ves_reference ves_tally_reference(const ves_tally_input *input, int bout);
+ves_reference ves_tally_reference(const ves_tally_input *input, int problem);
 
 /* What a pair says at the level of 5 %. */
 ves_finding ves_tally_finding(const ves_pair *pair);
 
 /* How dear a run was, for comparisons: the mean over the targets of log10 of the cost until each was met; one
  * that was not counts ten budgets. */
-double ves_tally_dearness(const ves_suite *suite, const ves_bout *bout, const ves_outcome *outcome,
-                          double reference);
+double ves_tally_dearness(const ves_suite *suite, const ves_suite_problem *problem,
+                          const ves_outcome *outcome, double reference);
 
 /* The value of a run that counts: feasible, at its end. INFINITY: none. */
 double ves_tally_value(const ves_outcome *outcome);

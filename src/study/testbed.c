@@ -1,4 +1,4 @@
-#include "study/ring.h"
+#include "study/testbed.h"
 
 #include <math.h>
 #include <string.h>
@@ -59,11 +59,11 @@ static ves_status same_file(void *data, const double *a, const double *b, bool *
     return p->same(p->data, pose->x, other, same);
 }
 
-static ves_status pose_instance(ves_ring *ring, int seed, ves_arena *arena, ves_pose *pose)
+static ves_status pose_instance(ves_testbed *testbed, int seed, ves_arena *arena, ves_pose *pose)
 {
-    const ves_bout *bout = ring->bout;
-    VES_TRY(
-        ves_instance_init(arena, bout->landscape, bout->n, bout->turned, ring->seed, seed, &pose->instance));
+    const ves_suite_problem *problem = testbed->problem;
+    VES_TRY(ves_instance_init(arena, problem->landscape, problem->n, problem->turned, testbed->seed, seed,
+                              &pose->instance));
     pose->problem.n = pose->instance.n;
     pose->problem.m = pose->instance.m;
     pose->problem.equality = pose->instance.equality;
@@ -73,21 +73,21 @@ static ves_status pose_instance(ves_ring *ring, int seed, ves_arena *arena, ves_
     return VES_OK;
 }
 
-static ves_status plan_of(ves_ring *ring, int worker, ves_diag *diag)
+static ves_status plan_of(ves_testbed *testbed, int worker, ves_diag *diag)
 {
-    const ves_plan_options grid = {{ring->grid[0], ring->grid[1]}};
-    if (ring->plan[worker]) return VES_OK;
-    return ves_plan_create(ring->problem, ring->grid[0] ? &grid : NULL, &ring->plan[worker], diag);
+    const ves_plan_options grid = {{testbed->grid[0], testbed->grid[1]}};
+    if (testbed->plan[worker]) return VES_OK;
+    return ves_plan_create(testbed->source, testbed->grid[0] ? &grid : NULL, &testbed->plan[worker], diag);
 }
 
-static ves_status pose_file(ves_ring *ring, int worker, ves_pose *pose)
+static ves_status pose_file(ves_testbed *testbed, int worker, ves_pose *pose)
 {
-    VES_TRY(plan_of(ring, worker, NULL));
-    pose->file = ves_plan_search(&ring->plan[worker], 1);
+    VES_TRY(plan_of(testbed, worker, NULL));
+    pose->file = ves_plan_search(&testbed->plan[worker], 1);
     pose->problem = pose->file;
     pose->problem.evaluate = evaluate_file;
     if (pose->file.same) pose->problem.same = same_file;
-    pose->optimum = ring->facts.maximize ? -ring->bout->optimum : ring->bout->optimum;
+    pose->optimum = testbed->facts.maximize ? -testbed->problem->optimum : testbed->problem->optimum;
     return VES_OK;
 }
 
@@ -99,13 +99,13 @@ static ves_status evaluate_plugin(void *data, int worker, const ves_ask *ask, ve
     return pose->objective->eval(pose->state, ask->x, ask->want & VES_WANT_GRADIENT, verdict);
 }
 
-static ves_status pose_plugin(ves_ring *ring, int worker, ves_pose *pose)
+static ves_status pose_plugin(ves_testbed *testbed, int worker, ves_pose *pose)
 {
-    const ves_objective *o = ring->objective;
-    if (o->create && !ring->state[worker]) ring->state[worker] = o->create();
-    if (o->create && !ring->state[worker]) return VES_MEMORY;
+    const ves_objective *o = testbed->objective;
+    if (o->create && !testbed->state[worker]) testbed->state[worker] = o->create();
+    if (o->create && !testbed->state[worker]) return VES_MEMORY;
     pose->objective = o;
-    pose->state = ring->state[worker];
+    pose->state = testbed->state[worker];
     pose->file = (ves_search_problem){.n = o->n,
                                       .m = o->m,
                                       .lower = o->lower,
@@ -116,19 +116,19 @@ static ves_status pose_plugin(ves_ring *ring, int worker, ves_pose *pose)
                                       .data = pose};
     pose->problem = pose->file;
     pose->problem.evaluate = evaluate_file;
-    pose->optimum = isnan(ring->bout->optimum) ? o->optimum : ring->bout->optimum;
+    pose->optimum = isnan(testbed->problem->optimum) ? o->optimum : testbed->problem->optimum;
     return VES_OK;
 }
 
-ves_status ves_ring_pose(ves_ring *ring, int worker, int seed, ves_arena *arena, ves_pose *pose)
+ves_status ves_testbed_pose(ves_testbed *testbed, int worker, int seed, ves_arena *arena, ves_pose *pose)
 {
     *pose = (ves_pose){.optimum = NAN};
-    if (ring->bout->kind == VES_BOUT_LANDSCAPE)
-        VES_TRY(pose_instance(ring, seed, arena, pose));
-    else if (ring->bout->kind == VES_BOUT_PLUGIN)
-        VES_TRY(pose_plugin(ring, worker, pose));
+    if (testbed->problem->kind == VES_SUITE_LANDSCAPE)
+        VES_TRY(pose_instance(testbed, seed, arena, pose));
+    else if (testbed->problem->kind == VES_SUITE_PLUGIN)
+        VES_TRY(pose_plugin(testbed, worker, pose));
     else
-        VES_TRY(pose_file(ring, worker, pose));
+        VES_TRY(pose_file(testbed, worker, pose));
     size_t n = (size_t)pose->problem.n;
     double *bound = ves_arena_take(arena, 2 * n, sizeof *bound);
     pose->room = ves_arena_take(arena, 2 * n, sizeof *pose->room);
@@ -171,74 +171,76 @@ static const char *eliminated(const ves_problem *problem)
     return !problem->solve ? "scale" : problem->scale ? "scale, solve" : "solve";
 }
 
-static ves_status facts_find(ves_ring *ring, ves_diag *diag)
+static ves_status facts_find(ves_testbed *testbed, ves_diag *diag)
 {
     ves_arena arena = {0};
     ves_pose pose;
-    ves_status status = ves_ring_pose(ring, 0, 0, &arena, &pose);
+    ves_status status = ves_testbed_pose(testbed, 0, 0, &arena, &pose);
     if (status == VES_OK) {
         const ves_search_problem *p = &pose.problem;
-        ring->facts = (ves_bench_bout){.n = p->n,
-                                       .m = p->m,
-                                       .maximize = ring->facts.maximize,
-                                       .eliminated = eliminated(ring->problem),
-                                       .gradients = p->gradients,
-                                       .optimum = pose.optimum};
-        for (int j = 0; j < p->m; j++) ring->facts.equalities += p->equality && p->equality[j];
-        ring->facts.seconds = timed(p, false, &arena);
-        ring->facts.seconds_gradient = timed(p, true, &arena);
+        testbed->facts = (ves_bench_problem){.n = p->n,
+                                             .m = p->m,
+                                             .maximize = testbed->facts.maximize,
+                                             .eliminated = eliminated(testbed->source),
+                                             .gradients = p->gradients,
+                                             .optimum = pose.optimum};
+        for (int j = 0; j < p->m; j++) testbed->facts.equalities += p->equality && p->equality[j];
+        testbed->facts.seconds = timed(p, false, &arena);
+        testbed->facts.seconds_gradient = timed(p, true, &arena);
     }
     ves_arena_destroy(&arena);
     return status == VES_OK ? VES_OK : ves_diag_fail(diag, status);
 }
 
-static ves_status file_open(ves_ring *ring, ves_diag *diag)
+static ves_status file_open(ves_testbed *testbed, ves_diag *diag)
 {
-    const ves_bout *bout = ring->bout;
-    const ves_read_options options = {.overrides = bout->sets, .override = bout->set, .inner = true};
+    const ves_suite_problem *problem = testbed->problem;
+    const ves_read_options options = {.overrides = problem->sets, .override = problem->set, .inner = true};
     int base = ves_diag_base(diag, -1); /* of the marks in this file */
-    ves_status status = ves_problem_read(bout->path, &options, &ring->problem, diag);
-    bool named = status == VES_OK && ves_problem_variables(ring->problem) >= 1 &&
-                 ves_problem_objective(ring->problem, &ring->facts.maximize);
-    if (named) status = plan_of(ring, 0, diag);
+    ves_status status = ves_problem_read(problem->path, &options, &testbed->source, diag);
+    bool named = status == VES_OK && ves_problem_variables(testbed->source) >= 1 &&
+                 ves_problem_objective(testbed->source, &testbed->facts.maximize);
+    if (named) status = plan_of(testbed, 0, diag);
     ves_diag_base(diag, base);
     if (status != VES_OK)
-        return ves_diag_add(diag, VES_NOTE, status, bout->mark, "it is a problem of this suite");
+        return ves_diag_add(diag, VES_NOTE, status, problem->mark, "it is a problem of this suite");
     if (!named)
-        return ves_diag_add(diag, VES_ERROR, VES_USAGE, bout->mark,
+        return ves_diag_add(diag, VES_ERROR, VES_USAGE, problem->mark,
                             "\"%s\" has no objective or no variables: there is nothing to compare",
-                            bout->path);
-    ves_plan_grid(ring->plan[0], ring->grid);
+                            problem->path);
+    ves_plan_grid(testbed->plan[0], testbed->grid);
     return VES_OK;
 }
 
-static ves_status plugin_open(ves_ring *ring, ves_diag *diag)
+static ves_status plugin_open(ves_testbed *testbed, ves_diag *diag)
 {
-    const ves_bout *bout = ring->bout;
-    if (!ring->hooks->load)
-        return ves_diag_add(diag, VES_ERROR, VES_ABSENT, bout->mark, "this program loads no plugins");
-    ves_status status = ring->hooks->load(ring->hooks->data, bout->path, bout->objective, &ring->objective);
-    if (status != VES_OK) ves_diag_add(diag, VES_NOTE, status, bout->mark, "it is a problem of this suite");
+    const ves_suite_problem *problem = testbed->problem;
+    if (!testbed->hooks->load)
+        return ves_diag_add(diag, VES_ERROR, VES_ABSENT, problem->mark, "this program loads no plugins");
+    ves_status status =
+        testbed->hooks->load(testbed->hooks->data, problem->path, problem->objective, &testbed->objective);
+    if (status != VES_OK)
+        ves_diag_add(diag, VES_NOTE, status, problem->mark, "it is a problem of this suite");
     return status;
 }
 
-ves_status ves_ring_open(ves_ring *ring, ves_arena *arena, ves_diag *diag)
+ves_status ves_testbed_open(ves_testbed *testbed, ves_arena *arena, ves_diag *diag)
 {
-    ring->plan = ves_arena_take(arena, (size_t)ring->jobs, sizeof(ves_plan *));
-    ring->state = ves_arena_take(arena, (size_t)ring->jobs, sizeof(void *));
-    if (!ring->plan || !ring->state) return ves_diag_fail(diag, VES_MEMORY);
-    if (ring->bout->kind == VES_BOUT_PLUGIN) VES_TRY(plugin_open(ring, diag));
-    if (ring->bout->kind == VES_BOUT_FILE) VES_TRY(file_open(ring, diag));
-    return facts_find(ring, diag);
+    testbed->plan = ves_arena_take(arena, (size_t)testbed->jobs, sizeof(ves_plan *));
+    testbed->state = ves_arena_take(arena, (size_t)testbed->jobs, sizeof(void *));
+    if (!testbed->plan || !testbed->state) return ves_diag_fail(diag, VES_MEMORY);
+    if (testbed->problem->kind == VES_SUITE_PLUGIN) VES_TRY(plugin_open(testbed, diag));
+    if (testbed->problem->kind == VES_SUITE_FILE) VES_TRY(file_open(testbed, diag));
+    return facts_find(testbed, diag);
 }
 
-void ves_ring_close(ves_ring *ring)
+void ves_testbed_close(ves_testbed *testbed)
 {
-    for (int k = 0; ring->plan && k < ring->jobs; k++) ves_plan_destroy(ring->plan[k]);
-    for (int k = 0; ring->state && k < ring->jobs; k++)
-        if (ring->state[k]) ring->objective->destroy(ring->state[k]);
-    ves_problem_destroy(ring->problem);
-    ring->plan = NULL;
-    ring->state = NULL;
-    ring->problem = NULL;
+    for (int k = 0; testbed->plan && k < testbed->jobs; k++) ves_plan_destroy(testbed->plan[k]);
+    for (int k = 0; testbed->state && k < testbed->jobs; k++)
+        if (testbed->state[k]) testbed->objective->destroy(testbed->state[k]);
+    ves_problem_destroy(testbed->source);
+    testbed->plan = NULL;
+    testbed->state = NULL;
+    testbed->source = NULL;
 }

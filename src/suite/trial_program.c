@@ -8,15 +8,15 @@
 
 #include "base/diag.h"
 #include "base/text.h"
-#include "suite/contest.h"
 #include "suite/instance.h"
 #include "suite/line.h"
+#include "suite/trial.h"
 
 enum { QUOTE = 80, IDLE = 3 };
 static const double patience = 2; /* s, for its end after it has been told */
 
 typedef struct talk {
-    ves_contest *contest;
+    ves_trial *trial;
     ves_search_problem problem;
     ves_line line;
     char *text; /* what is to be said; [room] */
@@ -66,28 +66,28 @@ static void say_numbers(talk *t, const char *key, const double *value, int count
 
 static bool send_off(talk *t)
 {
-    const ves_contest *c = t->contest;
+    const ves_trial *c = t->trial;
     say(t, "\n");
     ves_line_end end = VES_LINE_MEMORY;
-    double seconds = c->meter->over ? patience : c->entrant->seconds;
+    double seconds = c->meter->over ? patience : c->method->seconds;
     if (!t->failed) end = ves_line_write(&t->line, seconds, c->stopped, c->data, t->text, t->length);
     t->length = 0;
     t->ended = end == VES_LINE_LATE || end == VES_LINE_STOPPED;
     if (end == VES_LINE_LATE && !c->meter->over)
-        ves_contest_fail(t->contest, "the program read nothing for %g s", c->entrant->seconds);
+        ves_trial_fail(t->trial, "the program read nothing for %g s", c->method->seconds);
     return end == VES_LINE_DONE;
 }
 
 static bool slopes_given(const talk *t)
 {
-    return t->problem.gradients && !t->contest->entrant->values;
+    return t->problem.gradients && !t->trial->method->values;
 }
 
 static bool say_problem(talk *t)
 {
     const ves_search_problem *p = &t->problem;
-    const ves_meter *meter = t->contest->meter;
-    uint64_t seed = ves_instance_hash("program", t->contest->seed + (uint64_t)t->contest->starts) >> 33;
+    const ves_meter *meter = t->trial->meter;
+    uint64_t seed = ves_instance_hash("program", t->trial->seed + (uint64_t)t->trial->starts) >> 33;
     say(t, "{\"vesica\":1,\"n\":%d,\"m\":%d,\"equality\":[", p->n, p->m);
     for (int j = 0; j < p->m; j++)
         say(t, "%s%s", j ? "," : "", p->equality && p->equality[j] ? "true" : "false");
@@ -96,7 +96,7 @@ static bool say_problem(talk *t)
     say_number(t, ",\"cost\":", meter->cost);
     say_number(t, ",\"cost_gradient\":", meter->cost_gradient);
     say(t, ",\"seed\":%llu", (unsigned long long)seed);
-    say_numbers(t, ",\"start\":", t->contest->start, p->n);
+    say_numbers(t, ",\"start\":", t->trial->start, p->n);
     say(t, "}");
     return send_off(t);
 }
@@ -116,7 +116,7 @@ static bool say_answer(talk *t, bool slopes)
         for (int j = 0; j < p->m; j++) say_numbers(t, j ? "," : "", v->jacobian + (size_t)j * p->n, p->n);
         say(t, "]");
     }
-    say_number(t, ",\"left\":", ves_meter_left(t->contest->meter));
+    say_number(t, ",\"left\":", ves_meter_left(t->trial->meter));
     say(t, "}");
     return send_off(t);
 }
@@ -128,27 +128,27 @@ static void mourn(talk *t)
 {
     int code = ves_line_close(&t->line, patience);
     if (code < 0)
-        ves_contest_fail(t->contest, "the program was ended by signal %d", -code);
+        ves_trial_fail(t->trial, "the program was ended by signal %d", -code);
     else
-        ves_contest_fail(t->contest, "the program ended without {\"done\": true}, exit code %d", code);
+        ves_trial_fail(t->trial, "the program ended without {\"done\": true}, exit code %d", code);
 }
 
 static bool nonsense(talk *t, const char *what, const char *line)
 {
-    ves_contest_fail(t->contest, "%s: %.*s%s", what, QUOTE, line, strlen(line) > QUOTE ? "..." : "");
+    ves_trial_fail(t->trial, "%s: %.*s%s", what, QUOTE, line, strlen(line) > QUOTE ? "..." : "");
     return false;
 }
 
 /* One request that makes sense. False: it failed, or stopped. */
 static bool hear(talk *t, ves_request *request)
 {
-    ves_contest *c = t->contest;
+    ves_trial *c = t->trial;
     char *line;
-    switch (ves_line_read(&t->line, c->entrant->seconds, c->stopped, c->data, &line)) {
+    switch (ves_line_read(&t->line, c->method->seconds, c->stopped, c->data, &line)) {
     case VES_LINE_DONE:
         break;
     case VES_LINE_LATE:
-        ves_contest_fail(c, "the program said nothing for %g s", c->entrant->seconds);
+        ves_trial_fail(c, "the program said nothing for %g s", c->method->seconds);
         return false;
     case VES_LINE_CLOSED:
         mourn(t);
@@ -177,11 +177,11 @@ static bool hear(talk *t, ves_request *request)
 /* One process from its start to its end. */
 static ves_status converse(talk *t)
 {
-    ves_contest *c = t->contest;
+    ves_trial *c = t->trial;
     ves_request request;
     bool alive = say_problem(t);
     while (!c->meter->over && alive && hear(t, &request) && !request.done) {
-        if (!t->asked) c->aside += ves_contest_clock(c) - t->begun;
+        if (!t->asked) c->aside += ves_trial_clock(c) - t->begun;
         const ves_ask ask = {
             .x = t->u, .cutoff = HUGE_VAL, .want = request.gradient ? VES_WANT_GRADIENT : VES_WANT_VALUE};
         t->answer.status = VES_OK;
@@ -202,32 +202,32 @@ static ves_status converse(talk *t)
 
 static ves_status repeat(talk *t)
 {
-    ves_contest *c = t->contest;
+    ves_trial *c = t->trial;
     for (int idle = 0; !c->meter->over && !c->failed;) {
         if (c->stopped && c->stopped(c->data)) break;
-        VES_TRY(ves_contest_start(c));
-        t->begun = ves_contest_clock(c);
-        int error = ves_line_open(&t->line, c->entrant->word);
+        VES_TRY(ves_trial_start(c));
+        t->begun = ves_trial_clock(c);
+        int error = ves_line_open(&t->line, c->method->word);
         if (error) {
-            ves_contest_fail(c, "cannot start \"%s\": %s", c->entrant->word[0], strerror(error));
+            ves_trial_fail(c, "cannot start \"%s\": %s", c->method->word[0], strerror(error));
             break;
         }
         t->asked = 0;
         ves_status status = converse(t);
         bool waits = status == VES_OK && !c->failed && !(c->stopped && c->stopped(c->data));
-        double end = ves_contest_clock(c);
+        double end = ves_trial_clock(c);
         if (t->line.child) ves_line_close(&t->line, waits ? patience : 0);
-        c->aside += ves_contest_clock(c) - end;
+        c->aside += ves_trial_clock(c) - end;
         if (status != VES_OK) return status;
         idle = t->asked ? 0 : idle + 1;
-        if (idle == IDLE) ves_contest_fail(c, "the program ends without asking");
+        if (idle == IDLE) ves_trial_fail(c, "the program ends without asking");
     }
     return VES_OK;
 }
 
-ves_status ves_contest_program(ves_contest *contest)
+ves_status ves_trial_program(ves_trial *trial)
 {
-    talk t = {.contest = contest, .problem = ves_meter_problem(contest->meter, contest->start)};
+    talk t = {.trial = trial, .problem = ves_meter_problem(trial->meter, trial->start)};
     size_t n = (size_t)t.problem.n, m = (size_t)t.problem.m;
     ves_arena arena = {0};
     t.line.socket = -1;

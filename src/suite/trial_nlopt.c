@@ -4,8 +4,8 @@
 #include <nlopt.h>
 #include <string.h>
 
-#include "suite/contest.h"
 #include "suite/instance.h"
+#include "suite/trial.h"
 
 /* A local search that moves less than this in the unit box, or changes the value by less, has converged: the
  * finest target is 1e-6. */
@@ -16,7 +16,7 @@ static const double x_tolerance = 1e-9, f_tolerance = 1e-11;
 enum { SPINS = 1000, IDLE = 20 };
 
 typedef struct call {
-    ves_contest *contest;
+    ves_trial *trial;
     ves_search_problem problem;
     nlopt_opt opt;
     double *u; /* [n] what `answer` answers */
@@ -49,7 +49,7 @@ static void ask(call *c, const double *u, bool slopes)
         c->answer.status = VES_NO_NUMBER;
         nlopt_force_stop(c->opt);
     }
-    if (c->contest->stopped && c->contest->stopped(c->contest->data)) nlopt_force_stop(c->opt);
+    if (c->trial->stopped && c->trial->stopped(c->trial->data)) nlopt_force_stop(c->opt);
     if (c->answer.status == VES_OK && c->answer.value > c->worst) c->worst = c->answer.value;
 }
 
@@ -62,10 +62,10 @@ static void take(const call *c, const double *slope, double *gradient)
 static double objective(unsigned n, const double *u, double *gradient, void *data)
 {
     call *c = data;
-    long before = c->contest->meter->evaluations;
+    long before = c->trial->meter->evaluations;
     (void)n;
     ask(c, u, gradient);
-    c->spins = c->contest->meter->evaluations == before ? c->spins + 1 : 0;
+    c->spins = c->trial->meter->evaluations == before ? c->spins + 1 : 0;
     if (c->spins > SPINS) nlopt_force_stop(c->opt);
     take(c, c->answer.gradient, gradient);
     return c->answer.status == VES_OK ? c->answer.value : c->worst + 1 + fabs(c->worst);
@@ -94,7 +94,7 @@ static bool wraps(const char *name)
 static bool constrain(call *c, row *rows)
 {
     const ves_search_problem *p = &c->problem;
-    const ves_meter *meter = c->contest->meter;
+    const ves_meter *meter = c->trial->meter;
     bool own = meter->inequality <= 0;
     double tolerance = p->tolerance > 0 ? p->tolerance : VES_FEASIBLE;
     for (int j = 0; j < p->m; j++) {
@@ -105,8 +105,8 @@ static bool constrain(call *c, row *rows)
                                   ? nlopt_add_equality_constraint(c->opt, constraint, &rows[j], allowed)
                                   : nlopt_add_inequality_constraint(c->opt, constraint, &rows[j], allowed);
         if (result > 0) continue;
-        ves_contest_fail(c->contest, "NLopt's %s does not take %s", c->contest->entrant->algorithm,
-                         equality ? "equations" : "inequalities");
+        ves_trial_fail(c->trial, "NLopt's %s does not take %s", c->trial->method->algorithm,
+                       equality ? "equations" : "inequalities");
         return false;
     }
     return true;
@@ -114,71 +114,70 @@ static bool constrain(call *c, row *rows)
 
 static bool set_local(call *c)
 {
-    const ves_entrant *e = c->contest->entrant;
+    const ves_method *e = c->trial->method;
     if (!e->local) return true;
     nlopt_opt local = nlopt_create(nlopt_algorithm_from_string(e->local), (unsigned)c->problem.n);
     bool good = local && tolerances(local) && nlopt_set_local_optimizer(c->opt, local) > 0;
     nlopt_destroy(local);
-    if (!good) ves_contest_fail(c->contest, "NLopt's %s does not take %s inside", e->algorithm, e->local);
+    if (!good) ves_trial_fail(c->trial, "NLopt's %s does not take %s inside", e->algorithm, e->local);
     return good;
 }
 
 static bool prepare(call *c, row *rows)
 {
-    const ves_entrant *e = c->contest->entrant;
+    const ves_method *e = c->trial->method;
     c->opt = nlopt_create(nlopt_algorithm_from_string(e->algorithm), (unsigned)c->problem.n);
     if (!c->opt) {
-        ves_contest_fail(c->contest, "this NLopt was built without %s", e->algorithm);
+        ves_trial_fail(c->trial, "this NLopt was built without %s", e->algorithm);
         return false;
     }
     bool good = nlopt_set_lower_bounds1(c->opt, 0) > 0 && nlopt_set_upper_bounds1(c->opt, 1) > 0 &&
                 nlopt_set_min_objective(c->opt, objective, c) > 0;
     if (good && !strstr(e->algorithm, "MLSL")) good = tolerances(c->opt);
-    if (!good) ves_contest_fail(c->contest, "NLopt's %s does not take the problem", e->algorithm);
+    if (!good) ves_trial_fail(c->trial, "NLopt's %s does not take the problem", e->algorithm);
     return good && set_local(c) && constrain(c, rows);
 }
 
 /* Has it D in its name, or that inside? */
-static bool wants_slopes(const ves_entrant *e)
+static bool wants_slopes(const ves_method *e)
 {
     return strstr(e->algorithm, "D_") || (e->local && strstr(e->local, "D_"));
 }
 
 static ves_status descend(call *c)
 {
-    ves_contest *contest = c->contest;
-    ves_meter *meter = contest->meter;
-    for (int round = 0, idle = 0; !meter->over && !contest->failed; round++) {
-        if (contest->stopped && contest->stopped(contest->data)) break;
-        VES_TRY(ves_contest_start(contest));
-        nlopt_srand((unsigned long)(ves_instance_hash("nlopt", contest->seed + (uint64_t)round) >> 33));
+    ves_trial *trial = c->trial;
+    ves_meter *meter = trial->meter;
+    for (int round = 0, idle = 0; !meter->over && !trial->failed; round++) {
+        if (trial->stopped && trial->stopped(trial->data)) break;
+        VES_TRY(ves_trial_start(trial));
+        nlopt_srand((unsigned long)(ves_instance_hash("nlopt", trial->seed + (uint64_t)round) >> 33));
         nlopt_set_force_stop(c->opt, 0);
         c->known = false;
         c->spins = 0;
         long before = meter->evaluations;
         double value;
-        nlopt_result result = nlopt_optimize(c->opt, contest->start, &value);
+        nlopt_result result = nlopt_optimize(c->opt, trial->start, &value);
         if (meter->fault) return meter->fault;
         if (result == NLOPT_OUT_OF_MEMORY) return VES_MEMORY;
         const char *why = nlopt_get_errmsg(c->opt);
         if (result == NLOPT_INVALID_ARGS)
-            ves_contest_fail(contest, "NLopt's %s does not take the problem%s%s", contest->entrant->algorithm,
-                             why ? ": " : "", why ? why : "");
+            ves_trial_fail(trial, "NLopt's %s does not take the problem%s%s", trial->method->algorithm,
+                           why ? ": " : "", why ? why : "");
         idle = meter->evaluations == before ? idle + 1 : 0;
         if (idle > IDLE && !meter->over)
-            ves_contest_fail(contest, "NLopt's %s ends without an evaluation", contest->entrant->algorithm);
+            ves_trial_fail(trial, "NLopt's %s ends without an evaluation", trial->method->algorithm);
     }
     return VES_OK;
 }
 
-ves_status ves_contest_nlopt(ves_contest *contest)
+ves_status ves_trial_nlopt(ves_trial *trial)
 {
-    call c = {.contest = contest, .problem = ves_meter_problem(contest->meter, contest->start), .worst = 0};
+    call c = {.trial = trial, .problem = ves_meter_problem(trial->meter, trial->start), .worst = 0};
     size_t n = (size_t)c.problem.n, m = (size_t)c.problem.m;
-    bool slopes = c.problem.gradients && !contest->entrant->values;
-    if (!slopes && wants_slopes(contest->entrant)) {
-        ves_contest_fail(contest, "NLopt's %s needs gradients, and there are none",
-                         contest->entrant->algorithm);
+    bool slopes = c.problem.gradients && !trial->method->values;
+    if (!slopes && wants_slopes(trial->method)) {
+        ves_trial_fail(trial, "NLopt's %s needs gradients, and there are none", trial->method->algorithm);
         return VES_OK;
     }
     ves_arena arena = {0};
@@ -197,15 +196,15 @@ ves_status ves_contest_nlopt(ves_contest *contest)
     return status;
 }
 
-const char *ves_contest_algorithms(int k)
+const char *ves_trial_algorithms(int k)
 {
     return k >= 0 && k < NLOPT_NUM_ALGORITHMS ? nlopt_algorithm_to_string((nlopt_algorithm)k) : NULL;
 }
 
-bool ves_contest_algorithm(const char *name, bool *needs)
+bool ves_trial_algorithm(const char *name, bool *needs)
 {
     const char *known;
-    for (int k = 0; (known = ves_contest_algorithms(k)); k++)
+    for (int k = 0; (known = ves_trial_algorithms(k)); k++)
         if (!strcmp(known, name)) {
             *needs = wraps(name);
             return true;
