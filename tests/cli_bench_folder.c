@@ -74,6 +74,21 @@ Test(cli_bench_folder, what_looks_like_a_rank_is_none)
     root_remove();
 }
 
+/* A journal that is there but cannot be read is no damage: nothing is lost. That there are no times is told. */
+Test(cli_bench_folder, a_journal_that_cannot_be_read_ends_it)
+{
+    whole_make();
+    cr_assert(system("cp -r whole part && rm part/journals/00003.jsonl && mkdir part/journals/00003.jsonl && "
+                     "head -47 whole/runs.jsonl >part/runs.jsonl && cp part/runs.jsonl before") == 0);
+    expect(vesica(NULL, "bench --resume part"), 3, NULL, "cannot read \"part/journals/00003.jsonl\"",
+           "a folder");
+    same_file("before", "part/runs.jsonl");
+    cr_assert(system("rmdir part/journals/00003.jsonl && cp whole/journals/00003.jsonl part/journals/ && "
+                     "rm part/times.jsonl") == 0);
+    whole_again(NULL, "part/times.jsonl\" is missing: how long the runs before took is not known", "times");
+    root_remove();
+}
+
 /* Gives a key of a line another value (NULL: removes it). */
 static void line_spoil(FILE *out, const char *line, int length, const char *key, const char *value)
 {

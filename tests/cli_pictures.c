@@ -65,12 +65,13 @@ Test(cli_pictures, a_run_that_goes_on_leaves_no_picture_of_before)
     expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --out can"), 0, NULL, NULL, "can");
     cr_assert(remove("can/result.json") == 0);
     write_file("can/optima.png", "of before");
-    write_file("can/.optima.png.77-0.png", "unfinished");
-    static const char *const mine[] = {"can/.77-0.png", "can/.a.77.png", "can/optima.png.77-0.png",
-                                       "can/.a.7x-0.png", "can/.a.-0.png"};
+    write_file("can/.optima.png.vesica-77-0.png", "unfinished");
+    static const char *const mine[] = {"can/.vesica-77-0.png",           "can/.a.77.png",
+                                       "can/optima.png.vesica-77-0.png", "can/.a.vesica-7x-0.png",
+                                       "can/.a.vesica--0.png",           "can/.notes.2026-11.txt"};
     for (size_t k = 0; k < sizeof mine / sizeof *mine; k++) write_file(mine[k], "of the user");
     expect(vesica(NULL, "run --resume can"), 0, "best.png  start.vtp", NULL, "resumed");
-    cr_expect(access("can/optima.png", F_OK) != 0 && access("can/.optima.png.77-0.png", F_OK) != 0);
+    cr_expect(access("can/optima.png", F_OK) != 0 && access("can/.optima.png.vesica-77-0.png", F_OK) != 0);
     for (size_t k = 0; k < sizeof mine / sizeof *mine; k++)
         cr_expect(access(mine[k], F_OK) == 0, "%s", mine[k]);
     root_remove();
@@ -108,10 +109,10 @@ Test(cli_pictures, a_benchmark_draws_the_optima_of_problem_files)
     same_bytes("one/optima/a-tube.png", "two/optima/a-tube.png");
     cr_expect(access("one/optima/sphere-2.png", F_OK) != 0, "a function has no shape");
     cr_assert(system("mv one/optima/a-tube.png first.png") == 0);
-    write_file("one/optima/.a-tube.png.77-0.png", "unfinished");
+    write_file("one/optima/.a-tube.png.vesica-77-0.png", "unfinished");
     expect(vesica(NULL, "bench --resume one"), 0, NULL, NULL, "again");
     same_bytes("one/optima/a-tube.png", "first.png");
-    cr_expect(access("one/optima/.a-tube.png.77-0.png", F_OK) != 0);
+    cr_expect(access("one/optima/.a-tube.png.vesica-77-0.png", F_OK) != 0);
     cr_assert(system("rm -r one/optima && touch one/optima") == 0);
     expect(vesica(NULL, "bench --resume one"), 3, NULL, "one/optima", "a file is in the way");
     write_file("f.yaml", "vesica: 1\nsuite: functions\nproblems: [{function: sphere, n: 2}]\nseeds: 2\n"

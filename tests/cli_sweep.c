@@ -305,7 +305,7 @@ Test(cli_sweep, goes_on_where_it_was_broken_off, .timeout = 200)
     size_t at = 0, length = strlen(text);
     for (int part = 0; part <= 15; part++) {
         cr_assert(system("rm -rf part && cp -r whole part && rm part/points.jsonl part/sweep.csv") == 0);
-        write_file("part/shapes/.0003.vtp.77-0.vtp", "half a shape");
+        write_file("part/shapes/.0003.vtp.vesica-77-0.vtp", "half a shape");
         if (part < 15 && part % 3 == 0) {
             char *cut = strndup(text, at);
             write_file("part/walks/0001.jsonl", cut);
@@ -321,7 +321,8 @@ Test(cli_sweep, goes_on_where_it_was_broken_off, .timeout = 200)
         expect(vesica(NULL, "sweep --resume part --jobs 2"), 0, NULL, part ? "there already" : NULL,
                "resumed");
         same_sweep("whole", "part", 10);
-        cr_expect(access("part/shapes/.0003.vtp.77-0.vtp", F_OK) != 0 && access("part/lock", F_OK) != 0);
+        cr_expect(access("part/shapes/.0003.vtp.vesica-77-0.vtp", F_OK) != 0 &&
+                  access("part/lock", F_OK) != 0);
     }
     cr_expect(at == length);
     free(text);
@@ -383,9 +384,8 @@ Test(cli_sweep, what_cannot_go_on_says_what_to_do)
                "vesica: 1\nparameters: {A: 3*pi}\n" CAN
                "sweep: {over: {A: [8, 9]}, branches: {x: {set: {minimize: bending, maximize: volume}}}}\n");
     expect(vesica(NULL, "sweep set.yaml"), 2, NULL, "", "branch");
-    write_file("set.yaml",
-               "vesica: 1\nparameters: {A: 3*pi}\n" CAN
-               "sweep: {over: {A: [8, 9]}, branches: {x: {}, y: {set: {maximize: 2*volume}}}}\n");
+    write_file("set.yaml", "vesica: 1\nparameters: {A: 3*pi}\n" CAN
+                           "sweep: {over: {A: [8, 9]}, branches: {x: {}, y: {set: {maximize: 2*volume}}}}\n");
     expect(vesica(NULL, "sweep set.yaml"), 2, NULL,
            "set.yaml:16:46: error: what is set here changes what is minimized or maximized", "other goal");
     write_file("set.yaml", "vesica: 1\nparameters: {A: 3*pi}\n" CAN

@@ -92,6 +92,10 @@ Test(sweep_compare, zeros_tell_nothing)
         for (int k = 0; k < COUNT; k++)
             column(&m, w, k, VES_SWEEP_MEASURE)[1] = (w ? 1e-17 : -3e-17) * (1 + k);
     for (int k = 0; k < COUNT; k++) cr_expect(one(&m, k));
+    column(&m, 1, 2, VES_SWEEP_MEASURE)[1] = 3e-9; /* of 3.5 m: below 1e-9 of it */
+    cr_expect(one(&m, 2));
+    column(&m, 1, 2, VES_SWEEP_MEASURE)[1] = 5e-9;
+    cr_expect(one(&m, 2) == false);
     bed_clear(&m.b);
 }
 
@@ -106,6 +110,12 @@ Test(sweep_compare, slopes_that_are_left)
     cr_expect(one(&m, 1) == false);
     point(&m, 1, 1)->slope = 3e-5;
     cr_expect(one(&m, 1));
+    column(&m, 1, 1, VES_SWEEP_MEASURE)[1] = 1.5; /* which the slope leaves open */
+    cr_expect(one(&m, 1) && point(&m, 0, 1)->best && !point(&m, 1, 1)->best);
+    *column(&m, 0, 1, VES_SWEEP_OBJECTIVE) = 10 + 5e-5;
+    cr_expect(one(&m, 1) && point(&m, 1, 1)->best && !point(&m, 0, 1)->best, "the better one of one optimum");
+    *column(&m, 0, 1, VES_SWEEP_OBJECTIVE) = 10;
+    column(&m, 1, 1, VES_SWEEP_MEASURE)[1] = 1;
     point(&m, 1, 1)->slope = 1e-5;
     cr_expect(one(&m, 1) == false);
     point(&m, 1, 1)->slope = NAN;

@@ -22,12 +22,13 @@ static ves_status out_of_memory(ves_diag *diag)
     return ves_diag_fail(diag, VES_MEMORY);
 }
 
-/* FOLDER/.NAME.PID-TRY.ENDING */
+/* FOLDER/.NAME.vesica-PID-TRY.ENDING, which no file of a user's is called (ves_folder_tidy). */
 static void temporary_name(char *name, size_t size, const char *path, int attempt, const char *ending)
 {
     const char *slash = strrchr(path, '/');
     int folder = slash ? (int)(slash + 1 - path) : 0;
-    snprintf(name, size, "%.*s.%s.%ld-%d.%s", folder, path, path + folder, (long)getpid(), attempt, ending);
+    snprintf(name, size, "%.*s.%s.vesica-%ld-%d.%s", folder, path, path + folder, (long)getpid(), attempt,
+             ending);
 }
 
 /* Opens a new file beside path; -1 with errno on failure. */
@@ -44,7 +45,7 @@ static int temporary_open(char *name, size_t size, const char *path, const char 
 
 static ves_status begin_beside(ves_file *file, const char *ending, ves_diag *diag)
 {
-    size_t size = strlen(file->path) + strlen(ending) + 48;
+    size_t size = strlen(file->path) + strlen(ending) + 56;
     file->temporary = ves_memory_take(size);
     if (!file->temporary) return out_of_memory(diag);
     int fd = temporary_open(file->temporary, size, file->path, ending);

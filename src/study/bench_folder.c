@@ -232,48 +232,45 @@ static bool next(text *rest, const char **line, size_t *length)
     return true;
 }
 
-static bool journal_read(const char *path, ves_arena *arena, ves_outcome *o)
-{
-    size_t length = 0;
-    char *found = NULL;
-    return path && ves_study_load(path, arena, &found, &length) == VES_OK &&
-           ves_bench_steps_read(found, length, o);
-}
-
-/* One line of runs.jsonl. What it says of a run is lost only if it, or the journal, is damaged: then the run is
- * made again. */
-static void line_read(const ves_bench_files *files, const ves_bench *bench, const text *rest,
-                      const ves_node *line, ves_arena *arena)
+/* One line of runs.jsonl. What it says of a run is lost only if it is damaged, or the journal is that or gone: then the
+ * run is made again. */
+static ves_status line_read(const ves_bench_files *files, const ves_bench *bench, const text *rest,
+                            const ves_node *line, ves_arena *arena)
 {
     const ves_suite *suite = bench->suite;
     int index = ves_bench_run_of(line, suite);
     ves_outcome *o = index < 0 ? NULL : &bench->outcome[index];
-    if (o && o->done) return; /* twice */
+    if (o && o->done) return VES_OK; /* twice */
+    ves_status status = VES_OK;
     int n = o ? bench->problem[ves_suite_run(suite, index).problem].n : 0;
     if (!o || !ves_bench_run_read(line, n, ves_suite_budget(suite, n), o)) {
         ves_diag_add(files->diag, VES_WARNING, VES_SYNTAX, NOWHERE,
                      "\"%s\": line %d is damaged, or of no run of this suite: left out", rest->path,
                      rest->number);
     } else {
-        char *journal = journal_path(files->folder, index, arena);
-        o->done = journal_read(journal, arena, o);
-        if (!o->done)
+        text journal;
+        status = load(journal_path(files->folder, index, arena), arena, &journal, files->diag);
+        o->done = status == VES_OK && ves_bench_steps_read(journal.at, journal.left, o);
+        if (status == VES_OK && !o->done)
             ves_diag_add(files->diag, VES_WARNING, VES_SYNTAX, NOWHERE,
-                         "\"%s\" is missing or damaged: run %d is made again", journal ? journal : "", index);
+                         "\"%s\" is missing or damaged: run %d is made again", journal.path, index);
     }
     if (o && !o->done) ves_outcome_clear(o);
+    return status;
 }
 
 /* Lines come in the order in which runs have ended. */
-static void lines_read(const ves_bench_files *files, const ves_bench *bench, text *rest)
+static ves_status lines_read(const ves_bench_files *files, const ves_bench *bench, text *rest)
 {
     const char *line;
     size_t length;
-    while (next(rest, &line, &length)) {
+    ves_status status = VES_OK;
+    while (status == VES_OK && next(rest, &line, &length)) {
         ves_arena arena = {0};
-        line_read(files, bench, rest, ves_study_json(line, length, &arena), &arena);
+        status = line_read(files, bench, rest, ves_study_json(line, length, &arena), &arena);
         ves_arena_destroy(&arena);
     }
+    return status;
 }
 
 /* What clocks said of the runs that hold. */
@@ -305,10 +302,12 @@ static void read_back(ves_bench_files *files, int rank, void *data)
     ves_status status = load(lines_path(files, "runs", rank, &arena), &arena, &runs, files->diag);
     if (status == VES_OK)
         status = load(lines_path(files, "times", rank, &arena), &arena, &times, files->diag);
-    if (status == VES_OK) {
-        lines_read(files, r->bench, &runs);
-        times_read(files, r->bench, &times);
-    }
+    const bool timeless = status == VES_OK && runs.left && !times.at;
+    if (status == VES_OK) status = lines_read(files, r->bench, &runs);
+    if (status == VES_OK) times_read(files, r->bench, &times);
+    if (timeless)
+        ves_diag_add(files->diag, VES_WARNING, VES_IO, NOWHERE,
+                     "\"%s\" is missing: how long the runs before took is not known", times.path);
     if (r->status == VES_OK) r->status = status;
     ves_arena_destroy(&arena);
 }

@@ -35,7 +35,7 @@ static ves_status design_make(const hanging *h, const ves_bench_optimum *optimum
     double *x = ves_arena_take(h->arena, (size_t)run->n, sizeof *x);
     char *caption = ves_arena_format(h->arena, "%.9g", value);
     if (!x || !caption) return VES_MEMORY;
-    ves_ring_place(pose, run->x, x);
+    ves_testbed_place(pose, run->x, x);
     *design = (ves_shown_design){.x = x, .caption = caption};
     return notes_make(h, optimum, design);
 }

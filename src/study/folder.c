@@ -146,14 +146,16 @@ static const char *digits_before(const char *text, const char *end)
     return at < end ? at : NULL;
 }
 
-/* .NAME.PID-TRY.ENDING, of any file that was to appear whole. */
+/* .NAME.vesica-PID-TRY.ENDING, of any file that was to appear whole (output/file.c). */
 static bool is_unfinished(const char *entry)
 {
     const char *ending = *entry == '.' ? strrchr(entry, '.') : NULL;
     const char *attempt = ending ? digits_before(entry, ending) : NULL;
     if (!attempt || attempt[-1] != '-') return false;
+    static const char mark[] = ".vesica-";
+    const size_t length = sizeof mark - 1;
     const char *pid = digits_before(entry, attempt - 1);
-    return pid && pid[-1] == '.' && pid - 1 > entry;
+    return pid && pid - entry > (ptrdiff_t)length && !strncmp(pid - length, mark, length);
 }
 
 void ves_folder_tidy(const char *path, ves_arena *arena)

@@ -5,11 +5,12 @@
 #include "study/sweep_report.h"
 #include "vesica/plan.h"
 
-/* Ends are one when their objectives agree, and their variables to a thousandth of the ranges, as a search tells optima
- * apart, or all their measures to a thousandth of the largest that the sweep has: variables may be such that nothing
- * feels them. A measure that is never more than a millionth of its natural size tells nothing.
- * Objectives agree to a millionth, or to what the slopes that were left may still make of it: f is convex near one
- * optimum, so that f(a) - f(b) <= grad f(a) (a - b). */
+/* Ends are one when their objectives agree to a millionth, and their variables to a thousandth of the ranges, as a search
+ * tells optima apart, or all their measures to a thousandth of the largest that the sweep has, or to 1e-9 of their
+ * natural size: variables may be such that nothing feels them.
+ * A search that was broken off has a slope left. Near one optimum the Lagrangian L is convex, so that
+ * L(a) - L(b) <= |grad L(a)| |a - b|: ends whose objectives differ by no more than that cannot be told apart; where it is
+ * more than a millionth, neither can their measures. */
 static const double SAME = 1e-6, NEAR = 1e-3;
 
 static double objective(const ves_sweep *s, int index)
@@ -55,9 +56,10 @@ static bool same(const ves_sweep *s, const double *size, int i, int j)
     const double f = objective(s, i), g = objective(s, j);
     const int first = s->first[VES_SWEEP_MEASURE];
     const gap apart = gap_of(s, a, b);
-    double within = SAME * fmax(fmax(fabs(f), fabs(g)), NEAR * size[0]);
-    if (fabs(f - g) > within + (slope_of(s, i) + slope_of(s, j)) * apart.distance) return false;
-    if (apart.most <= NEAR) return true;
+    const double within = SAME * fmax(fmax(fabs(f), fabs(g)), NEAR * size[0]);
+    const double unknown = (slope_of(s, i) + slope_of(s, j)) * apart.distance;
+    if (fabs(f - g) > within + unknown) return false;
+    if (apart.most <= NEAR || unknown > within) return true;
     for (int k = 0; k < s->problem->measures; k++)
         if (fabs(a[first + k] - b[first + k]) > NEAR * size[1 + k]) return false;
     return s->problem->measures > 0;
@@ -93,7 +95,9 @@ static void rank(ves_sweep *s, const double *size, const int *list, int count)
         for (int i = 0; i < k && !point->optimum; i++)
             if (same(s, size, list[i], list[k])) point->optimum = s->point[list[i]].optimum;
         if (!point->optimum) point->optimum = ++optima;
-        if (point->optimum == 1 && (best < 0 || list[k] < best)) best = list[k];
+        bool equal = k == 0 || fabs(objective(s, list[k]) - objective(s, list[0])) <=
+                                   SAME * fabs(objective(s, list[0]));
+        if (point->optimum == 1 && equal && (best < 0 || list[k] < best)) best = list[k];
     }
     if (best >= 0) s->point[best].best = true;
 }

@@ -96,9 +96,9 @@ static bool same_constraints(const ves_problem *a, const ves_problem *b)
 static const char *unlike(const ves_problem *a, const ves_problem *b)
 {
     return !same_variables(a, b)     ? "the names of the variables"
-           : !same_measures(a, b)    ? "the measures"
            : !same_goal(a, b)        ? "what is minimized or maximized"
            : !same_constraints(a, b) ? "the constraints"
+           : !same_measures(a, b)    ? "the measures"
                                      : NULL;
 }
 

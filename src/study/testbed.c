@@ -23,7 +23,7 @@ static double width(const ves_search_problem *p, int i)
     return p->upper[i] - p->lower[i];
 }
 
-void ves_ring_place(const ves_pose *pose, const double *u, double *x)
+void ves_testbed_place(const ves_pose *pose, const double *u, double *x)
 {
     const ves_search_problem *p = &pose->file;
     for (int i = 0; i < p->n; i++) {
@@ -39,7 +39,7 @@ static ves_status evaluate_file(void *data, int worker, const ves_ask *ask, ves_
     ves_ask inner = *ask;
     inner.x = pose->x;
     (void)worker;
-    ves_ring_place(pose, ask->x, pose->x);
+    ves_testbed_place(pose, ask->x, pose->x);
     ves_status status = p->evaluate(p->data, 0, &inner, verdict);
     if (status != VES_OK || verdict->status != VES_OK || !(ask->want & VES_WANT_GRADIENT)) return status;
     for (int i = 0; i < p->n; i++) {
@@ -54,8 +54,8 @@ static ves_status same_file(void *data, const double *a, const double *b, bool *
     ves_pose *pose = data;
     const ves_search_problem *p = &pose->file;
     double *other = pose->room;
-    ves_ring_place(pose, a, pose->x);
-    ves_ring_place(pose, b, other);
+    ves_testbed_place(pose, a, pose->x);
+    ves_testbed_place(pose, b, other);
     return p->same(p->data, pose->x, other, same);
 }
 

@@ -38,6 +38,6 @@ typedef struct ves_pose {
 ves_status ves_testbed_pose(ves_testbed *testbed, int worker, int seed, ves_arena *arena, ves_pose *pose);
 
 /* FILE, PLUGIN: a point of the unit box in the units of the problem. */
-void ves_ring_place(const ves_pose *pose, const double *u, double *x);
+void ves_testbed_place(const ves_pose *pose, const double *u, double *x);
 
 #endif
