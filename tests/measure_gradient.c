@@ -10,7 +10,11 @@ typedef struct use {
     const char *measure, *formula;
     double smooth;
     int choice;
-    bool along, curves;
+    bool along, curves, plane;
+    struct {
+        const char *key;
+        double value;
+    } numbers[4];
 } use;
 
 static const use USES[] = {
@@ -44,6 +48,16 @@ static const use USES[] = {
     {.measure = "min", .formula = "p*x + q*y^2 + 0.1*H*k1 - z*K"},
     {.measure = "max", .formula = "k1*p + x*q*u - k2 + v", .smooth = 3},
     {.measure = "max", .formula = "k1*p + x*q*u - k2 + v - 2", .smooth = 6.5},
+    {.measure = "canham"},
+    {.measure = "canham", .numbers = {{"kappa", 0.7}, {"c0", 0.6}, {"kappa_g", -0.4}}},
+    {.measure = "canham", .numbers = {{"kappa", 1.3}, {"reduced_c0", 2.1}}},
+    {.measure = "canham", .numbers = {{"c0", -0.3}, {"reduced_c0", 1.1}, {"kappa_g", 0.2}}},
+    {.measure = "area_difference"},
+    {.measure = "reduced_volume"},
+    {.measure = "ade", .numbers = {{"kappa", 0.7}, {"reduced_c0", 0.9}, {"alpha", 1.4}, {"m0", 1.2}}},
+    {.measure = "ade", .numbers = {{"c0", 0.9}, {"alpha", 0.2}, {"m0", 1.7}, {"kappa_g", 0.3}}},
+    {.measure = "adhesion", .numbers = {{"w", 0.8}, {"range", 1.9}}, .plane = true},
+    {.measure = "line_tension", .numbers = {{"sigma", 0.6}}, .curves = true},
 };
 
 enum { COUNT = sizeof USES / sizeof *USES };
@@ -64,6 +78,10 @@ static void furnish(rig *r, const use *how, const body *b)
     if (how->smooth > 0) rig_number(r, "smooth", how->smooth);
     if (how->along) rig_vector(r, "along", 0.4, -1.3, 0.7);
     if (!strcmp(how->measure, "centroid")) rig_choice(r, "of", how->choice);
+    if (how->plane) rig_vector(r, "at", 0.3, -0.2, 0.1), rig_vector(r, "normal", 0.3, 0.5, 1.1);
+    if (!strcmp(how->measure, "line_tension")) rig_key(r, "curve")->given = true;
+    for (int k = 0; k < 4 && how->numbers[k].key; k++)
+        rig_number(r, how->numbers[k].key, how->numbers[k].value);
 }
 
 static double difference(rig *r, double *place)

@@ -454,7 +454,7 @@ static ves_status own_eval(const ves_measure_input *input, double *value)
     *value = input->number[input->args->arg[0].first];
     return VES_OK;
 }
-static const ves_measure own = {.name = "canham",
+static const ves_measure own = {.name = "helfrich",
                                 .about = "a measure from outside",
                                 .unit = "1",
                                 .surface = VES_AREA,
@@ -466,7 +466,7 @@ Test(problem, a_plugin_is_used_like_a_measure_of_the_house)
 {
     const ves_read_options options = {.plugin = plugin};
     ves_problem *p = read_with(
-        BASE "measures: {E: {canham: 3/2}, F: {canham: {c0: 1, over: wall}}}\nminimize: E + F + canham\n",
+        BASE "measures: {E: {helfrich: 3/2}, F: {helfrich: {c0: 1, over: wall}}}\nminimize: E + F + helfrich\n",
         &options);
     double *block = block_of(p);
     const double c0[] = {1.5, 1, 0.5};
@@ -480,7 +480,7 @@ Test(problem, a_plugin_is_used_like_a_measure_of_the_house)
     free(block);
     ves_problem_destroy(p);
     ves_diag *diag = ves_diag_create();
-    static const char text[] = BASE "measures: {E: {canham: {many: 1e12}}}\n";
+    static const char text[] = BASE "measures: {E: {helfrich: {many: 1e12}}}\n";
     char message[2000];
     cr_expect(ves_problem_read_text("x", text, strlen(text), &options, &p, diag) == VES_RANGE);
     ves_diag_text(diag, 0, message, sizeof message);
@@ -494,7 +494,7 @@ Test(problem, a_plugin_that_is_not_sound_is_refused_before_the_file_is_read)
     const ves_measure *const faulty[] = {&own, &dumb, NULL}, *const twice[] = {&own, &own, NULL};
     const ves_read_options options[] = {{.plugin = faulty}, {.plugin = twice}};
     const char *const want[] = {"the measure \"dumb\" from outside has no eval",
-                                "the measure \"canham\" from outside is there twice"};
+                                "the measure \"helfrich\" from outside is there twice"};
     for (int k = 0; k < 2; k++) {
         ves_problem *p = NULL;
         ves_diag *diag = ves_diag_create();

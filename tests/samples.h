@@ -12,7 +12,7 @@
 #include "measure/registry.h"
 #include "surface/grid.h"
 
-enum { RIG_SAMPLES = 6, RIG_NUMBERS = 16, RIG_SLOTS = 2, RIG_KEYS = 4, RIG_PLANES = 24 };
+enum { RIG_SAMPLES = 6, RIG_NUMBERS = 16, RIG_SLOTS = 2, RIG_KEYS = 8, RIG_PLANES = 24 };
 
 #define PI 3.14159265358979323846
 
@@ -146,6 +146,7 @@ typedef struct rig {
     double number[RIG_NUMBERS], number_back[RIG_NUMBERS]; /* two slots p, q first */
     int numbers;
     double *room;
+    void *state; /* what `prepare` made */
 } rig;
 
 static inline void rig_open(rig *r)
@@ -157,6 +158,7 @@ static inline void rig_open(rig *r)
 
 static inline void rig_close(rig *r)
 {
+    if (r->measure && r->measure->release) r->measure->release(r->state);
     ves_arena_destroy(&r->arena);
 }
 
@@ -338,13 +340,19 @@ static inline ves_measure_input rig_input(rig *r)
         r->sample[i] = &r->masked[i];
         r->adjoints[i] = &r->adjoint[i];
     }
-    return (ves_measure_input){
-        .samples = r->samples, .sample = r->sample, .args = &r->args, .number = r->number, .room = r->room};
+    return (ves_measure_input){.samples = r->samples,
+                               .sample = r->sample,
+                               .args = &r->args,
+                               .number = r->number,
+                               .room = r->room,
+                               .state = r->state};
 }
 
 static inline ves_status rig_try(rig *r, double *value)
 {
     ves_measure_input input = rig_input(r);
+    if (r->measure->prepare && !r->state) cr_assert(r->measure->prepare(&input, &r->state) == VES_OK);
+    input.state = r->state;
     size_t room = r->measure->room ? r->measure->room(&input) : 0;
     r->room = ves_arena_take(&r->arena, room + 1, sizeof(double));
     cr_assert(r->room != NULL);

@@ -147,3 +147,53 @@ void ves_flux_gradient(const ves_samples *s, const double d[3], ves_flux back, c
     by_direction(s, d, back, d_back);
     if (adjoint->X[0]) by_planes(s, d, back, adjoint);
 }
+
+double ves_flux_volume(const ves_measure_input *input)
+{
+    double caps = 0, sum = 0;
+    for (int i = 0; i < input->samples; i++) {
+        const ves_samples *s = input->sample[i];
+        if (s->site == VES_SITE_CAP) {
+            ves_cap cap = ves_cap_init(s);
+            for (int c = 0; c < 3; c++) caps += s->side / 6 * cap.mean[c] * cap.twice_area[c];
+            continue;
+        }
+        const double *restrict x = s->X[0], *restrict y = s->X[1], *restrict z = s->X[2],
+                               *restrict dA = s->dA;
+        const double *restrict p = s->normal[0], *restrict q = s->normal[1], *restrict r = s->normal[2];
+#pragma omp simd reduction(+ : sum)
+        for (int n = 0; n < s->count; n++) sum += (x[n] * p[n] + y[n] * q[n] + z[n] * r[n]) * dA[n];
+    }
+    return sum / 3 + caps;
+}
+
+void ves_flux_volume_gradient(const ves_measure_input *input, double seed, const ves_adjoint *const *adjoint)
+{
+    const double third = seed / 3;
+    for (int i = 0; i < input->samples; i++) {
+        const ves_samples *s = input->sample[i];
+        const ves_adjoint *g = adjoint[i];
+        if (!g->X[0]) continue;
+        if (s->site == VES_SITE_CAP) {
+            ves_cap cap = ves_cap_init(s), back = {0};
+            for (int c = 0; c < 3; c++) {
+                back.mean[c] = seed * s->side / 6 * cap.twice_area[c];
+                back.twice_area[c] = seed * s->side / 6 * cap.mean[c];
+            }
+            ves_cap_gradient(s, &back, g);
+            continue;
+        }
+        const double *restrict x = s->X[0], *restrict y = s->X[1], *restrict z = s->X[2],
+                               *restrict dA = s->dA;
+        const double *restrict p = s->normal[0], *restrict q = s->normal[1], *restrict r = s->normal[2];
+        double *restrict gx = g->X[0], *restrict gy = g->X[1], *restrict gz = g->X[2], *restrict gA = g->dA;
+        double *restrict gp = g->normal[0], *restrict gq = g->normal[1], *restrict gr = g->normal[2];
+#pragma omp simd
+        for (int n = 0; n < s->count; n++) {
+            double w = third * dA[n];
+            gx[n] += w * p[n], gy[n] += w * q[n], gz[n] += w * r[n];
+            gp[n] += w * x[n], gq[n] += w * y[n], gr[n] += w * z[n];
+            gA[n] += third * (x[n] * p[n] + y[n] * q[n] + z[n] * r[n]);
+        }
+    }
+}

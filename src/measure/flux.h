@@ -15,6 +15,13 @@ ves_cap ves_cap_init(const ves_samples *cap);
 /* Adds to the adjoint of X and Xv, given d J / d (each number of ves_cap). */
 void ves_cap_gradient(const ves_samples *cap, const ves_cap *back, const ves_adjoint *adjoint);
 
+/* The flux of X / 3 through patches and caps: the volume inside the closed shape. Through some patches of a closed part
+ * alone it is the volume of the cones from the origin to them, which depends on where the part stands; through all of
+ * one part with its caps it does not. A cubic polynomial in the modes: the trapezoid rule is exact for it once there
+ * are more than three times as many nodes as modes. */
+double ves_flux_volume(const ves_measure_input *input);
+void ves_flux_volume_gradient(const ves_measure_input *input, double seed, const ves_adjoint *const *adjoint);
+
 /* For volume centroids. With t = d . X, div(t d) = 1 and div(t^2/2 d) = t: the fluxes of these fields through
  * the closed shape are its volume and its first moment along the unit vector d. */
 typedef struct ves_flux {

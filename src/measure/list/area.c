@@ -1,18 +1,10 @@
-#include "vesica/measure.h"
+#include "measure/sum.h"
 
 /* Area of the surface (caps are not part of it).
  * test  sphere, cone, cylinder; scales with s^2 */
 static ves_status eval(const ves_measure_input *input, double *value)
 {
-    double sum = 0;
-    for (int i = 0; i < input->samples; i++) {
-        const ves_samples *s = input->sample[i];
-        if (s->site != VES_SITE_SURFACE) continue;
-        const double *restrict dA = s->dA;
-#pragma omp simd reduction(+ : sum)
-        for (int n = 0; n < s->count; n++) sum += dA[n];
-    }
-    *value = sum;
+    *value = ves_sum_area(input);
     return VES_OK;
 }
 
@@ -20,11 +12,7 @@ static void gradient(const ves_measure_input *input, double seed, const ves_adjo
                      double *number_adjoint)
 {
     (void)number_adjoint;
-    for (int i = 0; i < input->samples; i++) {
-        const ves_samples *s = input->sample[i];
-        if (s->site != VES_SITE_SURFACE || !adjoint[i]->dA) continue;
-        for (int n = 0; n < s->count; n++) adjoint[i]->dA[n] += seed;
-    }
+    ves_sum_area_gradient(input, seed, adjoint);
 }
 
 const ves_measure ves_measure_area = {.name = "area",
