@@ -1,0 +1,204 @@
+/* The least of all axisymmetric membranes of a family, independent of patches, measures and searches of the house: the
+ * meridian by its angle psi(s) = pi s + sum b_k sin(k pi s), 0 <= s <= 1, a series that converges faster than any
+ * power on smooth shapes; r and z by integrating cos psi and sin psi between Gauss nodes; the least energy by
+ * sequential quadratic programming in the b_k. */
+#ifndef TESTS_VESICLE_EXACT_H
+#define TESTS_VESICLE_EXACT_H
+
+#include <criterion/criterion.h>
+#include <math.h>
+#include <nlopt.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { EX_PANELS = 60, EX_GAUSS = 16, EX_NODES = EX_PANELS * EX_GAUSS, EX_MODES = 120 };
+
+static const double EX_PI = 3.14159265358979323846;
+
+typedef struct exact {
+    int modes;
+    double c0, nu; /* reduced */
+    double s[EX_NODES], weight[EX_NODES],
+        inner[EX_GAUSS][EX_GAUSS];                               /* of integrals from the begin of a panel */
+    double sine[EX_MODES][EX_NODES], cosine[EX_MODES][EX_NODES]; /* sin(k pi s), k pi cos(k pi s) */
+    /* at b */
+    double bound[EX_MODES];
+    double psi[EX_NODES], u[EX_NODES], r[EX_NODES], rk[EX_MODES][EX_NODES];
+    double energy, gap, reduced; /* E/(8 pi kappa), r(1), reduced volume */
+    double dE[EX_MODES], dgap[EX_MODES], dreduced[EX_MODES];
+    double tail;                     /* the last amplitudes: how well it is resolved */
+    double M, R0, thickness, radius; /* of lengths over R0: pole to pole, the largest r */
+} exact;
+
+/* Nodes and weights of -1 .. 1, by Newton's method on the Legendre polynomial. */
+static inline void exact_gauss(double x[EX_GAUSS], double w[EX_GAUSS])
+{
+    for (int i = 0; i < EX_GAUSS; i++) {
+        double t = -cos(EX_PI * (i + 0.75) / (EX_GAUSS + 0.5)), slope = 1;
+        for (int k = 0; k < 60; k++) {
+            double p = 1, q = 0;
+            for (int n = 1; n <= EX_GAUSS; n++) {
+                double next = ((2 * n - 1) * t * p - (n - 1) * q) / n;
+                q = p, p = next;
+            }
+            slope = EX_GAUSS * (t * p - q) / (t * t - 1);
+            t -= p / slope;
+        }
+        x[i] = t, w[i] = 2 / ((1 - t * t) * slope * slope);
+    }
+}
+
+/* inner[i][j]: the integral of Lagrange's polynomial j from -1 to x_i. */
+static inline void exact_inner(const double x[EX_GAUSS], const double w[EX_GAUSS], exact *e)
+{
+    for (int i = 0; i < EX_GAUSS; i++)
+        for (int j = 0; j < EX_GAUSS; j++) {
+            double half = (x[i] + 1) / 2, sum = 0;
+            for (int k = 0; k < EX_GAUSS; k++) {
+                double at = -1 + half * (x[k] + 1), l = 1;
+                for (int m = 0; m < EX_GAUSS; m++) l *= m == j ? 1 : (at - x[m]) / (x[j] - x[m]);
+                sum += half * w[k] * l;
+            }
+            e->inner[i][j] = sum / 2 / EX_PANELS;
+        }
+}
+
+static inline exact *exact_create(int modes, double c0, double nu)
+{
+    double x[EX_GAUSS], w[EX_GAUSS];
+    exact *e = calloc(1, sizeof *e);
+    cr_assert(e != NULL);
+    e->bound[0] = NAN;
+    e->modes = modes, e->c0 = c0, e->nu = nu;
+    exact_gauss(x, w);
+    exact_inner(x, w, e);
+    for (int n = 0; n < EX_NODES; n++) {
+        e->s[n] = (n / EX_GAUSS + (x[n % EX_GAUSS] + 1) / 2) / EX_PANELS;
+        e->weight[n] = w[n % EX_GAUSS] / 2 / EX_PANELS;
+        for (int k = 0; k < e->modes; k++) {
+            e->sine[k][n] = sin((k + 1) * EX_PI * e->s[n]);
+            e->cosine[k][n] = (k + 1) * EX_PI * cos((k + 1) * EX_PI * e->s[n]);
+        }
+    }
+    return e;
+}
+
+/* F(s) = integral of f from 0; returns F(1). */
+static inline double exact_integrate(const exact *e, const double *f, double *F)
+{
+    double before = 0;
+    for (int p = 0; p < EX_PANELS; p++) {
+        const double *g = f + p * EX_GAUSS;
+        for (int i = 0; i < EX_GAUSS; i++) {
+            double sum = before;
+            for (int j = 0; j < EX_GAUSS; j++) sum += e->inner[i][j] * g[j];
+            F[p * EX_GAUSS + i] = sum;
+        }
+        for (int j = 0; j < EX_GAUSS; j++) before += e->weight[j] * g[j];
+    }
+    return before;
+}
+
+/* Of unit length: A = 2 pi int r, V = pi int r^2 sin psi, and with h = u + sin psi / r, u = psi',
+ * E = (1/16 pi) (2 pi int r h^2 - 2 c0 / R0 2 pi int r h + c0^2 4 pi). */
+static inline void exact_bind(exact *e, const double *b)
+{
+    double f[EX_NODES], A = 0, V = 0, I1 = 0, I2 = 0;
+    for (int n = 0; n < EX_NODES; n++) {
+        e->psi[n] = EX_PI * e->s[n], e->u[n] = EX_PI;
+        for (int k = 0; k < e->modes; k++)
+            e->psi[n] += b[k] * e->sine[k][n], e->u[n] += b[k] * e->cosine[k][n];
+        f[n] = cos(e->psi[n]);
+    }
+    e->gap = exact_integrate(e, f, e->r);
+    for (int k = 0; k < e->modes; k++) {
+        for (int n = 0; n < EX_NODES; n++) f[n] = -sin(e->psi[n]) * e->sine[k][n];
+        e->dgap[k] = exact_integrate(e, f, e->rk[k]);
+    }
+    for (int n = 0; n < EX_NODES; n++) {
+        double w = e->weight[n], r = e->r[n], h = e->u[n] + sin(e->psi[n]) / r;
+        A += w * r, V += w * r * r * sin(e->psi[n]), I1 += w * r * h, I2 += w * r * h * h;
+    }
+    A *= 2 * EX_PI, V *= EX_PI, I1 *= 2 * EX_PI, I2 *= 2 * EX_PI;
+    const double R0 = e->R0 = sqrt(A / (4 * EX_PI)), ball = 4 * EX_PI / 3 * R0 * R0 * R0;
+    e->energy = (I2 - 2 * e->c0 * I1 / R0 + e->c0 * e->c0 * 4 * EX_PI) / (16 * EX_PI);
+    e->reduced = V / ball;
+    e->M = I1 / (8 * EX_PI * R0);
+    e->thickness = e->radius = 0;
+    for (int n = 0; n < EX_NODES; n++) {
+        e->thickness += e->weight[n] * sin(e->psi[n]) / R0;
+        e->radius = fmax(e->radius, e->r[n] / R0);
+    }
+    for (int k = 0; k < e->modes; k++) {
+        double dA = 0, dV = 0, d1 = 0, d2 = 0;
+        for (int n = 0; n < EX_NODES; n++) {
+            double w = e->weight[n], r = e->r[n], rk = e->rk[k][n], sn = sin(e->psi[n]), cs = cos(e->psi[n]);
+            double h = e->u[n] + sn / r, hk = e->cosine[k][n] + cs * e->sine[k][n] / r - sn * rk / (r * r);
+            dA += w * rk, dV += w * (2 * r * sn * rk + r * r * cs * e->sine[k][n]);
+            d1 += w * (rk * h + r * hk), d2 += w * (rk * h * h + 2 * r * h * hk);
+        }
+        dA *= 2 * EX_PI, dV *= EX_PI, d1 *= 2 * EX_PI, d2 *= 2 * EX_PI;
+        double dR0 = dA / (8 * EX_PI * R0);
+        e->dE[k] = (d2 - 2 * e->c0 * (d1 / R0 - I1 / (R0 * R0) * dR0)) / (16 * EX_PI);
+        e->dreduced[k] = dV / ball - 3 * e->reduced / R0 * dR0;
+    }
+}
+
+/* Amplitudes fall at least like k^(-3/2): in units of that the problem is well scaled. */
+static inline double exact_unit(int k)
+{
+    return pow(k + 1, -1.5);
+}
+
+static inline void exact_at(exact *e, const double *y)
+{
+    double b[EX_MODES];
+    const size_t size = (size_t)e->modes * sizeof *y;
+    if (!memcmp(y, e->bound, size)) return; /* energy and equations are asked for in turn */
+    memcpy(e->bound, y, size);
+    for (int k = 0; k < e->modes; k++) b[k] = y[k] * exact_unit(k);
+    exact_bind(e, b);
+}
+
+static double exact_energy(unsigned n, const double *y, double *gradient, void *data)
+{
+    exact *e = data;
+    exact_at(e, y);
+    for (unsigned k = 0; gradient && k < n; k++) gradient[k] = e->dE[k] * exact_unit((int)k);
+    return e->energy;
+}
+
+enum { EX_WEIGHT = 30 }; /* of the equations: closed, of that volume */
+
+static void exact_equations(unsigned m, double *value, unsigned n, const double *y, double *slope, void *data)
+{
+    exact *e = data;
+    (void)m;
+    exact_at(e, y);
+    value[0] = EX_WEIGHT * e->gap, value[1] = EX_WEIGHT * (e->reduced - e->nu);
+    for (unsigned k = 0; slope && k < n; k++) {
+        slope[k] = EX_WEIGHT * e->dgap[k] * exact_unit((int)k);
+        slope[n + k] = EX_WEIGHT * e->dreduced[k] * exact_unit((int)k);
+    }
+}
+
+/* From the shape b[modes], which becomes the best. */
+static inline void exact_solve(exact *e, double *b)
+{
+    double y[EX_MODES], value, tolerance[2] = {1e-12, 1e-12};
+    for (int k = 0; k < e->modes; k++) y[k] = b[k] / exact_unit(k);
+    nlopt_opt opt = nlopt_create(NLOPT_LD_SLSQP, (unsigned)e->modes);
+    nlopt_set_min_objective(opt, exact_energy, e);
+    nlopt_add_equality_mconstraint(opt, 2, exact_equations, e, tolerance);
+    nlopt_set_ftol_rel(opt, 1e-15);
+    nlopt_set_maxeval(opt, 2000);
+    nlopt_result result = nlopt_optimize(opt, y, &value);
+    nlopt_destroy(opt);
+    cr_assert(result > 0 || result == NLOPT_ROUNDOFF_LIMITED, "%s", nlopt_result_to_string(result));
+    exact_at(e, y);
+    for (int k = 0; k < e->modes; k++) b[k] = y[k] * exact_unit(k);
+    e->tail = fmax(fabs(b[e->modes - 1]), fabs(b[e->modes - 2]));
+    cr_assert(fabs(e->gap) < 1e-9 && fabs(e->reduced - e->nu) < 1e-9, "%g %g", e->gap, e->reduced - e->nu);
+}
+
+#endif
