@@ -18,7 +18,7 @@ same() {
 printf '%s\n' 'vesica: 1' 'variables: {R: [1.1, 3, 5]}' 'shape: {closed: true}' 'measures: {hh: {integral: "H^2"}}' \
   'minimize: hh' 'search: [{anneal: {evaluations: 400}}, {polish: {}}]' 'patches:' \
   '  t: {surface: {formula: ["(R + cos(u))*cos(v)", "(R + cos(u))*sin(v)", "sin(u)"]}, domain: {u: [0, 2*pi], v: [0, 2*pi]}}' >torus.yaml
-for problem in torus.yaml "$1/problems/vesicle.yaml" "$1/problems/curvature.yaml"; do
+for problem in torus.yaml "$1/problems/vesicle/book.yaml" "$1/problems/curvature.yaml"; do
   name=$(basename "$problem" .yaml)
   "$2/vesica" run "$problem" --evaluations 20000 --out "$name" --progress none >out 2>&1
   for n in 1 2 3; do
@@ -50,7 +50,7 @@ same_sweep() {
   diff -r --exclude=times.jsonl --exclude=walks "$1" "$2"
   [ ! -e "$2/lock" ] && [ ! -e "$2/helpers" ]
 }
-cp "$1/problems/vesicle.yaml" membrane.yaml
+cp "$1/problems/vesicle/book.yaml" membrane.yaml
 printf '%s\n' 'sweep:' '  over: {nu: {from: 0.7, to: 0.9, step: 0.02, walk: both}}' \
   '  branches: {oblate: {set: {zn: 0.5, zs: -0.5, R: 1.3}}, prolate: {set: {zn: 1.6, zs: -1.6, R: 0.7}}}' >>membrane.yaml
 "$2/vesica" sweep membrane.yaml --out alone --progress none >out 2>&1
