@@ -301,6 +301,58 @@ Test(verdicts, a_proof_compares_violations_in_units_of_their_sizes)
     }
 }
 
+/* The checks of a file are asked by proofs, on both grids, and by nobody else. */
+Test(verdicts, a_check_that_does_not_hold_refuses_a_best)
+{
+    const struct {
+        const char *holds;
+        double q;
+        ves_status want;
+        const char *text;
+    } table[] = {{"b <= 0.1", 4, VES_OK, ""},
+                 {"b <= 0.1", 4.5, VES_BROKEN, "\"b <= 0.1\", with b = 0.12"}, /* 0.092 on the coarse one */
+                 {"b >= 0.1", 4.5, VES_BROKEN, "\"b >= 0.1\", with b = 0.09"},
+                 {"b > 0 and q < 4 + 1e-9", 4, VES_OK, ""},
+                 {"area > 0, q*b < 4", 4.5, VES_OK, ""},
+                 {"area > 0, q < 4", 4.5, VES_BROKEN, "\"q < 4\", with q = 4.5 on the finer grid"},
+                 {"sqrt(4 - q) >= 0", 4.5, VES_BROKEN, "with q = 4.5"}};
+    char text[1000], why[200] = "";
+    for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        snprintf(text, sizeof text,
+                 "vesica: 1\nvariables: {q: [1, 3, 40]}\nquadrature: {u: 8, v: 8}\n"
+                 "patches: {p: {surface: {formula: [u, v, \"0.02*sin(q*v)\"]}, periodic: false}}\n"
+                 "validity: {jacobian: any, self_intersection: never, holds: [\"%.*s\"%s%s%s]}\n"
+                 "measures: {b: {willmore: {}}}\nminimize: depth\n",
+                 (int)strcspn(table[k].holds, ","), table[k].holds, strchr(table[k].holds, ',') ? ", \"" : "",
+                 strchr(table[k].holds, ',') ? strchr(table[k].holds, ',') + 2 : "",
+                 strchr(table[k].holds, ',') ? "\"" : "");
+        bed b = bed_make(text, NULL);
+        double arrays[24];
+        cr_expect_eq(judged(&b, &table[k].q, VES_WANT_VALUE, HUGE_VAL, arrays).status, VES_OK);
+        ves_verdict got = judged(&b, &table[k].q, VES_WANT_PROOF, HUGE_VAL, arrays);
+        cr_expect_eq(got.status, table[k].want, "case %zu: %s", k, ves_status_text(got.status));
+        cr_expect_eq(ves_plan_broken(b.plan, why, sizeof why), table[k].want == VES_BROKEN);
+        cr_expect(strstr(why, table[k].text) != NULL, "%s", why);
+        cr_expect(got.status == VES_OK || (isnan(got.value) && got.violation == HUGE_VAL));
+        bed_clear(&b);
+    }
+}
+
+Test(verdicts, what_only_checks_read_is_measured_for_proofs_alone)
+{
+    bed b = bed_make(CONE("variables: {r: [0.3, 1.4, 2]}\nquadrature: {u: 16, v: 16}\n",
+                          "minimize: area\nvalidity: {holds: [dear < 2]}\n"),
+                     PLUGIN);
+    double x = 1.4, arrays[24];
+    dear_calls = 0;
+    judged(&b, &x, VES_WANT_VALUE, HUGE_VAL, arrays);
+    judged(&b, &x, VES_WANT_GRADIENT, HUGE_VAL, arrays); /* it has none: nobody asks */
+    cr_expect_eq(dear_calls, 0);
+    cr_expect_eq(judged(&b, &x, VES_WANT_PROOF, HUGE_VAL, arrays).status, VES_OK);
+    cr_expect_eq(dear_calls, 2);
+    bed_clear(&b);
+}
+
 /* A search asks for proofs without a cutoff, others may give one. */
 Test(verdicts, a_proof_that_is_cut_short_tells_the_violation)
 {

@@ -56,8 +56,8 @@ ves_status ves_plan_choose(const ves_problem *problem, const double *x, int quad
 /* Judges one candidate: objective (negated when the problem maximises), scaled constraints, violation: in
  * units of `within`, which counts 1e-6, where those of ves_design are in units of sizes. With
  * VES_WANT_PROOF the candidate is also measured at level 1, must agree within 1 %, must not violate a
- * constraint by 1 % of its size more, and must not cross itself (validity: self_intersection). The arrays of
- * verdict are the caller's, and ask->level does not matter to a proof. A candidate that fails is
+ * constraint by 1 % of its size more, must not cross itself (validity: self_intersection), and the checks of
+ * validity: {holds: ...} are asked at both levels (VES_BROKEN). The arrays of verdict are the caller's, and ask->level does not matter to a proof. A candidate that fails is
  * verdict->status > 0. Returns VES_OK; VES_RANGE: there is no such level (without a diagnostic: there is
  * nowhere to write it); VES_ABSENT: VES_WANT_GRADIENT where a measure that is judged has none
  * (ves_plan_search(...).gradients is false); VES_MEMORY: of a proof. */
@@ -80,6 +80,7 @@ typedef struct ves_design {
     const double *slot;    /* [slots] variables, unknown of solve:, parameters, as in ves_problem_slot */
     const double *measure; /* [measures] */
     const ves_sides *side; /* [constraints] */
+    const bool *check;     /* [checks] it holds, at this level; false: it does not, or status is not VES_OK */
     double objective;      /* NAN: the file has none, or status is not VES_OK */
     double violation;      /* the largest of the constraints, 0 without any; NAN: status is not VES_OK */
     double similarity;     /* the factor of scale:, 1 without; NAN: it failed before that was known */
@@ -103,9 +104,14 @@ double ves_plan_measure_size(const ves_plan *plan, int measure);
 
 /* After a positive answer `status`: a warning "what: ..." that says why, with the place when diag is the one
  * that the problem was read with: which number has left the range of its key (VES_OUTSIDE), which measure or
- * formula has no value (VES_NO_NUMBER), where which patch has no point (VES_NO_POINT), which coefficients are
+ * formula has no value (VES_NO_NUMBER), which check is broken (VES_BROKEN), where which patch has no point (VES_NO_POINT), which coefficients are
  * not elliptic (VES_NOT_ELLIPTIC); else the sentence of the status. */
 void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag *diag);
+
+/* After a proof that was answered VES_BROKEN, and before the plan is used again: which check of validity: {holds:
+ * ...} does not hold, with the numbers that it reads: "willmore >= 4*pi", with willmore = 11.2 on the finer grid. Returns false, and *text is
+ * untouched, when none is broken. */
+bool ves_plan_broken(const ves_plan *plan, char *text, size_t size);
 
 /* The problem as a search poses it: vesica/search.h with options, hooks and threads of one's own.
  *

@@ -64,6 +64,10 @@ typedef enum ves_relation { VES_AT_MOST, VES_AT_LEAST, VES_EQUAL } ves_relation;
 int ves_problem_constraints(const ves_problem *problem);
 const char *ves_problem_constraint(const ves_problem *problem, int index, ves_relation *relation);
 
+/* A check of validity: {holds: ...} as written. */
+int ves_problem_checks(const ves_problem *problem);
+const char *ves_problem_check(const ves_problem *problem, int index);
+
 int ves_problem_patches(const ves_problem *problem);
 const char *ves_problem_patch(const ves_problem *problem, int index);
 

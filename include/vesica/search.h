@@ -52,6 +52,11 @@ typedef struct ves_search_problem {
      * are over, from the thread that called ves_search_run. A negative return ends the search. NULL: no two
      * are. */
     ves_status (*same)(void *data, const double *a, const double *b, bool *same);
+
+    /* More than the sentence of the status, for the notes: why x was just refused by its proof, asked from the
+     * thread that called ves_search_run, once for each status. It must not depend on what was evaluated before.
+     * Returns false, or NULL: there is no more to say. */
+    bool (*why)(void *data, const double *x, ves_status status, char *text, size_t size);
 } ves_search_problem;
 
 /* The annealer: one Metropolis loop [Ugail 2011, 7.3-7.4] and five slots, each filled by the name of a choice that

@@ -122,7 +122,8 @@ int app_together(app *a, int (*work)(app *a));
 void app_screen_run(const ves_run *run, FILE *out);
 void app_screen_variables(const ves_run *run, FILE *out);
 void app_screen_joints(const ves_run *run, FILE *out);
-void app_screen_design(const ves_problem *problem, const ves_design *design, FILE *out);
+void app_screen_design(const ves_problem *problem, const ves_design *design, const ves_design *finer,
+                       FILE *out); /* finer: on a finer grid */
 const char *app_screen_number(double value, char buffer[32]);
 const char *app_screen_thousands(long value, char buffer[32]);
 const char *app_screen_time(double seconds, char buffer[32]);

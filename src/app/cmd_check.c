@@ -300,7 +300,7 @@ static int report(app *a, checked *c)
         patches(c);
         amplifications(c);
         printf("  start design\n\n");
-        app_screen_design(c->run->problem, &c->run->best, stdout);
+        app_screen_design(c->run->problem, &c->run->best, &c->run->finer, stdout);
         app_screen_joints(c->run, stdout);
         costs(c);
         proposals(c);

@@ -24,7 +24,7 @@ int app_eval(app *a)
         if (a->options.json)
             json_print(run);
         else
-            app_screen_design(run->problem, &run->best, stdout);
+            app_screen_design(run->problem, &run->best, &run->finer, stdout);
         code = run->feasible ? APP_DONE : APP_UNMET;
         ves_run_destroy(run);
     }

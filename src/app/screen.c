@@ -122,6 +122,26 @@ static void constraints(const ves_problem *problem, const ves_design *design, FI
     fputc('\n', out);
 }
 
+/* Of validity: {holds: ...}. finer: the same design on a finer grid. */
+static void checks(const ves_problem *problem, const ves_design *design, const ves_design *finer, FILE *out)
+{
+    const ves_validity_def *v = &problem->validity;
+    app_table t = {.align = "ll"};
+    if (!v->checks) return;
+    app_table_cell(&t, "check");
+    app_table_end(&t);
+    for (int k = 0; k < v->checks; k++) {
+        app_table_cell(&t, "%s", v->check[k].text);
+        app_table_cell(&t, "%s",
+                       design->status != VES_OK ? "not measured"
+                       : !design->check[k]      ? "DOES NOT HOLD"
+                       : finer->check[k]        ? "holds"
+                                                : "DOES NOT HOLD on the finer grid");
+    }
+    app_table_print(&t, out);
+    fputc('\n', out);
+}
+
 /* What is to be said of a variable at x. Under `scale:` a limit need not shut a shape out: it is there in
  * other sizes. */
 static const char *remark(const ves_variable *v, double x, bool idle, bool scaled)
@@ -485,6 +505,7 @@ void app_screen_run(const ves_run *run, FILE *out)
     const ves_design *start = run->searched && run->any ? &run->start : NULL;
     goal(p, &run->best, start, out);
     constraints(p, &run->best, out);
+    checks(p, &run->best, &run->finer, out);
     app_screen_variables(run, out);
     measures(p, &run->best, start, out);
     app_screen_joints(run, out);
@@ -492,9 +513,11 @@ void app_screen_run(const ves_run *run, FILE *out)
     conclusion(run, out);
 }
 
-void app_screen_design(const ves_problem *problem, const ves_design *design, FILE *out)
+void app_screen_design(const ves_problem *problem, const ves_design *design, const ves_design *finer,
+                       FILE *out)
 {
     goal(problem, design, NULL, out);
     constraints(problem, design, out);
+    checks(problem, design, finer, out);
     measures(problem, design, NULL, out);
 }

@@ -17,6 +17,7 @@ typedef enum plan_program {
     PROGRAM_SCALE, /* the measure of scale:, on the shape before it is scaled */
     PROGRAM_SOLVE, /* the measures of the equation of solve: */
     PROGRAM_JUDGE, /* objective and constraints, validity */
+    PROGRAM_PROOF, /* the checks of validity: holds */
     PROGRAM_ALL,   /* every measure */
     PROGRAMS
 } plan_program;
@@ -105,6 +106,8 @@ struct ves_plan {
     bool any_dear;  /* some judged measure is dear */
     double cutoff;  /* of the question at hand */
     int numberless; /* the measure that gave no number in the last program, or -1 */
+    int broken;     /* the check that the last proof found broken, or -1 */
+    int broken_level;
     double similarity; /* of the design that is bound */
     bool scaled;       /* that is known: found, or there is no scale: */
     double *formula_room;
@@ -119,6 +122,7 @@ struct ves_plan {
     /* what ves_plan_measure tells */
     double *told;     /* [measures] */
     ves_sides *sides; /* [constraints] */
+    bool *checked;    /* [checks] */
 
     /* what ves_plan_search hands out: [variables], [constraints] */
     double *lower, *upper, *start;
@@ -161,6 +165,11 @@ double ves_plan_formula(ves_plan *plan, const ves_formula *formula);
 
 /* judge.c: the largest violation among the constraints that read no dear measure */
 double ves_plan_cheap_violation(ves_plan *plan);
+
+/* checks.c: measures what the checks read of the design that is bound, and asks them; VES_BROKEN: the first
+ * that does not hold is plan->broken. holds: of what was measured last. */
+ves_status ves_plan_checks(ves_plan *plan, int level);
+bool ves_plan_holds(ves_plan *plan, const ves_formula *formula);
 
 /* pose.c: what ves_plan_search hands out */
 ves_status ves_plan_pose(ves_plan *plan);

@@ -156,11 +156,13 @@ static ves_status prove(ves_plan *plan, const ves_ask *ask, ves_verdict *verdict
     ves_status status = judge(plan, &only, 1, &fine);
     verdict->value = fine.value, verdict->violation = fine.violation; /* where it ends here: CUT, a fold */
     VES_TRY(status);
+    VES_TRY(ves_plan_checks(plan, 1));
     memcpy(plan->fine, plan->value, sizeof(double) * (size_t)plan->problem->measures);
     violations(plan, plan->fine_violation);
     if (plan->problem->validity.self_intersection) VES_TRY(ves_plan_crosses(plan));
     only.want = ask->want & ~(unsigned)VES_WANT_PROOF;
     VES_TRY(judge(plan, &only, 0, verdict));
+    VES_TRY(ves_plan_checks(plan, 0));
     bool agree = near(verdict->value, fine.value) || measures_near(plan, plan->fine);
     return agree && violations_near(plan, plan->fine_violation) ? VES_OK : VES_COARSE;
 }
@@ -170,6 +172,7 @@ static ves_status failed(ves_status status, ves_verdict *verdict)
     if (status <= VES_OK) return status;
     verdict->status = status;
     if (status != VES_CUT) verdict->violation = HUGE_VAL;
+    if (status == VES_BROKEN) verdict->value = NAN;
     return VES_OK;
 }
 
@@ -178,6 +181,7 @@ ves_status ves_plan_evaluate(ves_plan *plan, const ves_ask *ask, ves_verdict *ve
     if (ask->level < 0 || ask->level >= LEVELS) return VES_RANGE;
     if ((ask->want & VES_WANT_GRADIENT) && !plan->gradients) return VES_ABSENT;
     verdict->status = VES_OK;
+    plan->broken = -1;
     bool proof = ask->want & VES_WANT_PROOF;
     return failed(proof ? prove(plan, ask, verdict) : judge(plan, ask, ask->level, verdict), verdict);
 }
@@ -205,6 +209,8 @@ static void tell(ves_plan *plan, ves_design *design)
         design->violation = fmax(design->violation, v);
         design->feasible = design->feasible && plan->sides[k].holds;
     }
+    for (int k = 0; k < p->validity.checks; k++)
+        plan->checked[k] = ves_plan_holds(plan, p->validity.check[k].formula);
     if (p->objective) design->objective = ves_plan_formula(plan, p->objective);
     if (p->objective && !isfinite(design->objective)) design->status = VES_NO_NUMBER;
     if (design->status == VES_OK) return;
@@ -223,11 +229,13 @@ ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_desi
                            .slot = plan->block,
                            .measure = plan->told,
                            .side = plan->sides,
+                           .check = plan->checked,
                            .objective = NAN,
                            .violation = NAN,
                            .similarity = plan->scaled ? plan->similarity : NAN};
     for (int m = 0; m < p->measures; m++) plan->told[m] = NAN;
     for (int k = 0; k < p->constraints; k++) plan->sides[k] = (ves_sides){NAN, NAN, NAN, false};
+    for (int k = 0; k < p->validity.checks; k++) plan->checked[k] = false;
     if (status == VES_OK) tell(plan, design);
     return design->status;
 }

@@ -30,6 +30,7 @@ static ves_status runs_make(ves_plan *plan)
         runs_add(plan, PROGRAM_JUDGE, p->constraint[k].left);
         runs_add(plan, PROGRAM_JUDGE, p->constraint[k].right);
     }
+    for (int k = 0; k < p->validity.checks; k++) runs_add(plan, PROGRAM_PROOF, p->validity.check[k].formula);
     for (int k = 0; k < p->constraints; k++) {
         plan->cheap[k] = true;
         for (int m = 0; m < p->measures; m++) {
@@ -64,6 +65,7 @@ static int formula_room(const ves_problem *p)
         ROOM(p->constraint[k].right);
     }
     ROOM(p->objective);
+    for (int k = 0; k < p->validity.checks; k++) ROOM(p->validity.check[k].formula);
     if (p->solve) {
         ROOM(p->solve->left);
         ROOM(p->solve->right);
@@ -105,12 +107,14 @@ static ves_status memory_take(ves_plan *plan)
     plan->reference = ves_arena_take(a, (size_t)p->variables, sizeof *plan->reference);
     plan->told = ves_arena_doubles(a, (size_t)p->measures);
     plan->sides = ves_arena_take(a, (size_t)p->constraints, sizeof *plan->sides);
+    plan->checked = ves_arena_take(a, (size_t)p->validity.checks, sizeof *plan->checked);
+    plan->broken = -1;
     return plan->block && plan->block_adjoint && plan->value && plan->fine && plan->fine_violation &&
                    plan->measure_adjoint && plan->natural && plan->size && plan->cheap &&
                    plan->formula_room && plan->rows && plan->row_similarity && plan->unit_row &&
                    plan->field && plan->field_adjoint && plan->unfolded && plan->form && plan->patch &&
                    plan->sheet && plan->side && plan->part && plan->sense && plan->enclosed &&
-                   plan->reference && plan->told && plan->sides
+                   plan->reference && plan->told && plan->sides && plan->checked
                ? VES_OK
                : VES_MEMORY;
 }

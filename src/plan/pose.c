@@ -74,6 +74,16 @@ static ves_status evaluate(void *data, int worker, const ves_ask *ask, ves_verdi
     return ves_plan_evaluate(plan[worker], ask, verdict);
 }
 
+/* A search may have the answer from a journal: the proof is made again. */
+static bool why(void *data, const double *x, ves_status status, char *text, size_t size)
+{
+    ves_plan **plan = data;
+    ves_verdict verdict = {.status = VES_OK};
+    ves_ask ask = {.x = x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
+    return status == VES_BROKEN && ves_plan_evaluate(plan[0], &ask, &verdict) == VES_OK &&
+           ves_plan_broken(plan[0], text, size);
+}
+
 ves_search_problem ves_plan_search(ves_plan **plan, int workers)
 {
     const ves_plan *first = plan[0];
@@ -89,5 +99,6 @@ ves_search_problem ves_plan_search(ves_plan **plan, int workers)
                                 .evaluate = evaluate,
                                 .data = plan,
                                 .name = first->name,
-                                .same = first->problem->scale ? same : NULL};
+                                .same = first->problem->scale ? same : NULL,
+                                .why = why};
 }

@@ -164,6 +164,15 @@ static bool number_tell(ves_plan *plan, const char *what, ves_diag *diag)
     return true;
 }
 
+static bool broken_tell(const ves_plan *plan, const char *what, ves_diag *diag)
+{
+    char text[512];
+    if (!ves_plan_broken(plan, text, sizeof text)) return false;
+    ves_diag_add(diag, VES_WARNING, VES_BROKEN, plan->problem->validity.check[plan->broken].mark,
+                 "%s: %s: %s", what, ves_status_text(VES_BROKEN), text);
+    return true;
+}
+
 void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag *diag)
 {
     spot at;
@@ -174,6 +183,7 @@ void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag 
         return;
     }
     if (status == VES_NO_NUMBER && number_tell(plan, what, diag)) return;
+    if (status == VES_BROKEN && broken_tell(plan, what, diag)) return;
     if ((status == VES_NOT_ELLIPTIC || status == VES_UNDETERMINED) &&
         ves_plan_elliptic_tell(plan, what, diag))
         return;

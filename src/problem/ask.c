@@ -68,6 +68,16 @@ const char *ves_problem_constraint(const ves_problem *problem, int index, ves_re
     return problem->constraint[index].text;
 }
 
+int ves_problem_checks(const ves_problem *problem)
+{
+    return problem->validity.checks;
+}
+
+const char *ves_problem_check(const ves_problem *problem, int index)
+{
+    return there(index, problem->validity.checks) ? problem->validity.check[index].text : NULL;
+}
+
 int ves_problem_patches(const ves_problem *problem)
 {
     return problem->patches;

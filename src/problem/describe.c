@@ -326,6 +326,11 @@ const char *ves_describe_status(ves_status status)
         return "Conditions inside a patch, or derivatives without the lower ones, can leave a mode free for "
                "some coefficients or some a.\n      Narrow the ranges, or give positions and all lower "
                "derivatives where a derivative stands.";
+    case VES_BROKEN:
+        return "Asked for by validity: {holds: [...]}, at each best, not at every candidate. Where designs "
+               "that "
+               "are good break it, give the\n      formula the room that the grid needs, as in willmore >= "
+               "4*pi*(1 - 1e-6).";
     case VES_SINGULAR:
         return "Conditions of a patch say the same, or leave a mode free.";
     case VES_FAULT:

@@ -47,6 +47,7 @@ static void scan(ves_reader *reader, const ves_fields *root)
     ves_reader_plain_measures(reader, ves_fields_find(root, "minimize"));
     ves_reader_plain_measures(reader, ves_fields_find(root, "maximize"));
     scan_list(reader, ves_fields_find(root, "constraints"));
+    scan_list(reader, ves_node_find(ves_fields_find(root, "validity"), "holds"));
     scan_list(reader, ves_fields_find(root, "expect"));
     scan_list(reader, ves_node_find(ves_fields_find(root, "test"), "expect"));
 }
@@ -226,6 +227,29 @@ static void read_constraints(scope *s, const ves_node *list)
     s->reader->problem->constraints = all.count;
 }
 
+/* What every accepted best must meet: looked at when it is proved, so no variable is driven by it. */
+static void read_holds(scope *s, const ves_node *list)
+{
+    ves_reader *reader = s->reader;
+    ves_validity_def *validity = &reader->problem->validity;
+    items all;
+    items_of(list, &all);
+    ves_expect_def *out = ves_arena_take(reader->arena, (size_t)all.count, sizeof *out);
+    if (!ves_reader_memory(reader, out)) return;
+    reader->owner = IGNORED;
+    for (int k = 0; k < all.count; k++) {
+        const ves_node *node = all.item[k];
+        if (!ves_reader_word(reader, node, "check, as in willmore >= 4*pi")) continue;
+        const ves_formula *formula = ves_reader_formula(reader, ves_text_whole(node), s->symbol, s->symbols);
+        out[k] = (ves_expect_def){ves_reader_mark(reader, node), node->text, formula};
+        if (formula && !depends(s, formula))
+            ves_reader_error(reader, VES_RANGE, node, "this check depends on no measure and no variable");
+    }
+    reader->owner = -1;
+    validity->check = out;
+    validity->checks = all.count;
+}
+
 static const ves_expect_def *read_expect(scope *s, const ves_node *list, int *count)
 {
     items all;
@@ -255,6 +279,7 @@ void ves_reader_goals(ves_reader *reader, const ves_fields *root)
     read_scale(&s, ves_fields_find(root, "scale"));
     read_objective(&s, root);
     read_constraints(&s, ves_fields_find(root, "constraints"));
+    read_holds(&s, ves_node_find(ves_fields_find(root, "validity"), "holds"));
     s.check = ves_reader_symbols(reader, true, &s.checks);
     if (!s.check) return;
     problem->expect = read_expect(&s, ves_fields_find(root, "expect"), &problem->expects);

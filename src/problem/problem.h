@@ -176,6 +176,8 @@ enum {
 typedef struct ves_validity_def {
     bool jacobian;          /* default true */
     bool self_intersection; /* `best`: CGAL on accepted bests; default true, `never` false */
+    int checks;             /* holds: what proofs ask on both grids; arguments: the measures */
+    const ves_expect_def *check;
     /* least_radius: {value, axis, over}; monotone: {along, over}; absent: number index -1 */
     int least_radius, axis;
     int radius_patches;

@@ -208,11 +208,16 @@ static const ves_entry monotone_keys[] = {
     {{"over", VES_PATCHES, .about = "the patches, all unless given"}, "over: [wall]", NULL},
     END};
 
+static const ves_entry holds[] = {
+    {{"check", KIND(VES_CHECK), .about = "a formula of measures, variables and parameters that must hold for a best to be accepted"}, "willmore >= 4*pi*(1 - 1e-6)", NULL},
+    END};
+
 static const ves_entry validity_keys[] = {
     {{"jacobian", VES_CHOICE, .words = "positive|any", .about = "positive: a candidate whose surface folds back on itself is refused"}, "jacobian: positive", NULL},
     {{"self_intersection", VES_CHOICE, .words = "best|never", .about = "best: every accepted best is checked for crossing itself"}, "self_intersection: best", NULL},
     {{"least_radius", KIND(VES_MAP), .about = "the surface keeps away from an axis"}, "least_radius: {value: 0.1}", radius_keys},
     {{"monotone", KIND(VES_MAP), .about = "the surface never turns back along a direction"}, "monotone: {along: [0, 1, 0]}", monotone_keys},
+    {{"holds", KIND(VES_LIST), .max = HUGE_VAL, .about = "checks of every accepted best, on the grid of the search and on the finer one: what is true of all good shapes and false of those that cheat, as a bound from theory. No constraints: nothing pulls a search towards them, and measures that they alone read are measured for bests only"}, "holds: [willmore >= 4*pi*(1 - 1e-6), abs(gauss_curvature - 4*pi) < 1e-3]", holds},
     END};
 
 static const ves_entry quadrature_keys[] = {

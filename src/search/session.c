@@ -197,8 +197,13 @@ static void refuse(ves_session *session, const ves_point *point, ves_status stat
            n * sizeof(double));
     int kind = (int)status;
     bool listed = kind > 0 && kind < VES_STATUS_KINDS;
-    if (!listed || !session->refusal[kind])
-        ves_session_note(session, "a best was refused by its proof: %s", ves_status_text(status));
+    if (!listed || !session->refusal[kind]) {
+        char text[SENTENCE];
+        const ves_search_problem *p = session->problem;
+        bool more = p->why && p->why(p->data, point->x, status, text, sizeof text);
+        ves_session_note(session, "a best was refused by its proof: %s%s%s", ves_status_text(status),
+                         more ? ": " : "", more ? text : "");
+    }
     if (listed) session->refusal[kind] = true;
 }
 

@@ -29,7 +29,8 @@ ves_status ves_design_measure(ves_plan *plan, const ves_problem *problem, const 
     d.x = d.slot = copy(arena, d.slot, problem->slots, sizeof *d.slot);
     d.measure = copy(arena, d.measure, problem->measures, sizeof *d.measure);
     d.side = copy(arena, d.side, problem->constraints, sizeof *d.side);
-    if (!d.slot || !d.measure || !d.side) return VES_MEMORY;
+    d.check = copy(arena, d.check, problem->validity.checks, sizeof *d.check);
+    if (!d.slot || !d.measure || !d.side || !d.check) return VES_MEMORY;
     *design = d;
     return VES_OK;
 }

@@ -45,6 +45,20 @@ static void constraints(const ves_problem *problem, const ves_design *design, ve
     ves_json_end(json, ']');
 }
 
+static void checks(const ves_problem *problem, const ves_design *design, ves_json *json)
+{
+    const ves_validity_def *v = &problem->validity;
+    if (!v->checks) return;
+    ves_json_array(json, "checks");
+    for (int k = 0; k < v->checks; k++) {
+        ves_json_object(json, NULL);
+        ves_json_text(json, "text", v->check[k].text);
+        ves_json_flag(json, "holds", design->check[k]);
+        ves_json_end(json, '}');
+    }
+    ves_json_end(json, ']');
+}
+
 /* Of all numbers here: SI, whatever the file writes. "1": none, as everywhere in a file without units. */
 static void units(const ves_problem *problem, ves_json *json)
 {
@@ -89,6 +103,7 @@ void ves_result_design(const ves_problem *problem, const ves_design *design, ves
     ves_json_number(json, "violation", design->violation);
     ves_json_flag(json, "feasible", design->feasible);
     constraints(problem, design, json);
+    checks(problem, design, json);
     unknown(problem, design, json);
     if (problem->scale) ves_json_number(json, "scale", design->similarity);
     units(problem, json);
@@ -105,6 +120,7 @@ static void grids(const ves_run *run, ves_json *json)
     ves_json_object(json, "finer");
     ves_json_number(json, "objective", run->finer.objective);
     measures(run->problem, &run->finer, json);
+    checks(run->problem, &run->finer, json);
     ves_json_number(json, "change", run->finer_change);
     ves_json_end(json, '}');
 }
@@ -368,6 +384,7 @@ void ves_result_write(const ves_run *run, ves_json *json)
     variables(problem, run->best.x, json);
     measures(problem, &run->best, json);
     constraints(problem, &run->best, json);
+    checks(problem, &run->best, json);
     unknown(problem, &run->best, json);
     if (problem->scale) ves_json_number(json, "scale", run->best.similarity);
     ves_result_joints(run, json);

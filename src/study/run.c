@@ -264,14 +264,17 @@ static void folder_end(ves_study *s)
 /* The dear checks of the start; a note where they fail. */
 static ves_status start_prove(ves_study *s, const char *what, ves_status *proof)
 {
-    char text[VES_SENTENCE];
+    char more[2 * VES_SENTENCE], text[3 * VES_SENTENCE];
     ves_verdict verdict = {0};
     ves_ask ask = {.x = s->run->start.x, .level = 1, .cutoff = HUGE_VAL, .want = VES_WANT_PROOF};
     ves_status status = ves_plan_evaluate(s->plan[0], &ask, &verdict);
     if (status != VES_OK) return ves_diag_fail(s->diag, status);
     if (proof) *proof = verdict.status;
-    snprintf(text, sizeof text, "the %s did not pass its checks: %s", what, ves_status_text(verdict.status));
-    return verdict.status == VES_OK ? VES_OK : ves_study_note(s, text);
+    if (verdict.status == VES_OK) return VES_OK;
+    bool broken = ves_plan_broken(s->plan[0], more, sizeof more);
+    snprintf(text, sizeof text, "the %s did not pass its checks: %s%s%s", what,
+             ves_status_text(verdict.status), broken ? ": " : "", broken ? more : "");
+    return ves_study_note(s, text);
 }
 
 /* Stages behind those of the search polish again, from its end. */
