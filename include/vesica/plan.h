@@ -81,6 +81,7 @@ typedef struct ves_design {
     const double *measure; /* [measures] */
     const ves_sides *side; /* [constraints] */
     const bool *check;     /* [checks] it holds, at this level; false: it does not, or status is not VES_OK */
+    int kind;              /* the first of the kinds of the file that it is of; -1: none, or not VES_OK */
     double objective;      /* NAN: the file has none, or status is not VES_OK */
     double violation;      /* the largest of the constraints, 0 without any; NAN: status is not VES_OK */
     double similarity;     /* the factor of scale:, 1 without; NAN: it failed before that was known */

@@ -68,6 +68,10 @@ const char *ves_problem_constraint(const ves_problem *problem, int index, ves_re
 int ves_problem_checks(const ves_problem *problem);
 const char *ves_problem_check(const ves_problem *problem, int index);
 
+/* A name for designs, of kinds. */
+int ves_problem_kinds(const ves_problem *problem);
+const char *ves_problem_kind(const ves_problem *problem, int index);
+
 int ves_problem_patches(const ves_problem *problem);
 const char *ves_problem_patch(const ves_problem *problem, int index);
 

@@ -114,6 +114,7 @@ typedef struct ves_run {
     const ves_joint *joint;
     int optima;                 /* distinct ends of the search */
     const ves_optimum *optimum; /* best first; value with the sign of the file, violation as in a design */
+    const int *optimum_kind;    /* [optima] as in a design */
     ves_ending ending;
     const char *stop; /* a sentence: why the search ended */
     int notes;

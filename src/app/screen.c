@@ -6,6 +6,7 @@
 #include "app/table.h"
 #include "base/vector.h"
 #include "study/annealing.h"
+#include "study/design.h"
 
 /* A variable this near to its limit, relative to its range, lies on it. */
 static const double AT_LIMIT = 1e-6;
@@ -93,6 +94,19 @@ static void goal(const ves_problem *problem, const ves_design *best, const ves_d
         else if (isfinite(change))
             fprintf(out, "   %+.1f %%", change);
     }
+    fputs("\n\n", out);
+}
+
+static const char *kind_of(const ves_problem *problem, const ves_design *design)
+{
+    return design->status != VES_OK ? "not measured" : ves_design_kind(problem, design->kind);
+}
+
+static void kinds(const ves_problem *problem, const ves_design *best, const ves_design *start, FILE *out)
+{
+    if (!problem->kinds) return;
+    fprintf(out, "  kind   %s", kind_of(problem, best));
+    if (start) fprintf(out, "   start %s", kind_of(problem, start));
     fputs("\n\n", out);
 }
 
@@ -307,7 +321,9 @@ static void optima(const ves_run *run, app_table *t)
         if (o->hits != 1) app_screen_plural(o->hits, "time", "times", hits);
         if (k) differences(run, k, apart, sizeof apart);
         app_table_cell(t, k ? "" : run->optima == 1 ? "optimum" : "optima");
-        app_table_cell(t, "%s%s%s   found %s%s%s", number, *shown->unit ? " " : "", shown->unit, hits,
+        app_table_cell(t, "%s%s%s   found %s%s%s%s%s", number, *shown->unit ? " " : "", shown->unit, hits,
+                       run->problem->kinds ? "   " : "",
+                       run->problem->kinds ? ves_design_kind(run->problem, run->optimum_kind[k]) : "",
                        o->saddle ? "   a saddle" : "", apart);
     }
     if (run->optima > OPTIMA) {
@@ -504,6 +520,7 @@ void app_screen_run(const ves_run *run, FILE *out)
     const ves_problem *p = run->problem;
     const ves_design *start = run->searched && run->any ? &run->start : NULL;
     goal(p, &run->best, start, out);
+    kinds(p, &run->best, start, out);
     constraints(p, &run->best, out);
     checks(p, &run->best, &run->finer, out);
     app_screen_variables(run, out);
@@ -517,6 +534,7 @@ void app_screen_design(const ves_problem *problem, const ves_design *design, con
                        FILE *out)
 {
     goal(problem, design, NULL, out);
+    kinds(problem, design, NULL, out);
     constraints(problem, design, out);
     checks(problem, design, finer, out);
     measures(problem, design, NULL, out);

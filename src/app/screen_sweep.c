@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "app/table.h"
+#include "study/design.h"
 
 enum { ROWS = 24, WALKS = 48, BAR = 30, COLUMNS = 16 };
 
@@ -135,6 +136,21 @@ static void lost(const ves_sweep *s, int walk, FILE *out)
     }
 }
 
+/* Where a walk goes over to another kind of design. */
+static void turns(const ves_sweep *s, int walk, FILE *out)
+{
+    const char *name = s->walk[walk].name;
+    for (int k = walk * s->count; k < (walk + 1) * s->count; k++) {
+        const int before = ves_sweep_turned(s, k);
+        if (before < 0 || !s->point[k].good) continue;
+        fprintf(out, "  kind       %s%s%s becomes %s between ", name, *name ? ": " : "",
+                ves_design_kind(s->problem, s->point[before].kind),
+                ves_design_kind(s->problem, s->point[k].kind));
+        places_print(s, ves_sweep_place(s, before), ves_sweep_place(s, k), out);
+        fputc('\n', out);
+    }
+}
+
 static void apart(const ves_sweep *s, int walk, FILE *out)
 {
     int other = ves_sweep_return(s, walk), first, last;
@@ -221,6 +237,7 @@ static void best_head(const ves_sweep *s, const int *priced, int prices, app_tab
         app_table_cell(t, "price of %s%s%s", c->text, *c->shown.unit ? ", per " : "", c->shown.unit);
     }
     app_table_cell(t, "%s", s->walks > 1 ? "walk" : "");
+    if (p->kinds) app_table_cell(t, "kind");
 }
 
 static void best_row(const ves_sweep *s, int index, const int *priced, int prices, app_table *t)
@@ -240,6 +257,7 @@ static void best_row(const ves_sweep *s, int index, const int *priced, int price
         app_table_number(t, column[s->first[VES_SWEEP_PRICE] + priced[k]] / of * per);
     }
     app_table_cell(t, "%s", s->walk[index / s->count].name);
+    if (p->kinds) app_table_cell(t, "%s", ves_design_kind(p, s->point[index].kind));
 }
 
 static void bests(const ves_sweep *s, FILE *out)
@@ -247,11 +265,11 @@ static void bests(const ves_sweep *s, FILE *out)
     const int seconds = s->def->axes > 1 ? s->def->axis[1].count : 1, all = s->count * seconds;
     const int rows = all < ROWS ? all : ROWS;
     int priced[COLUMNS], prices = 0;
-    for (int k = 0; k < s->problem->constraints && prices < COLUMNS - 8; k++)
+    for (int k = 0; k < s->problem->constraints && prices < COLUMNS - 8 - (s->problem->kinds > 0); k++)
         if (is_priced(s, k)) priced[prices++] = k;
     char align[COLUMNS + 1] = "";
     memset(align, 'r', (size_t)(s->def->axes + 1 + prices));
-    align[s->def->axes + 1 + prices] = 'l';
+    memset(align + s->def->axes + 1 + prices, 'l', s->problem->kinds ? 2 : 1);
     app_table t = {.align = align};
     best_head(s, priced, prices, &t);
     int shown = 0;
@@ -271,6 +289,7 @@ void app_screen_sweep(const ves_sweep *s, FILE *out)
     bests(s, out);
     const int shown = s->walks < WALKS ? s->walks : WALKS;
     for (int w = 0; w < shown; w++) lost(s, w, out);
+    for (int w = 0; w < shown; w++) turns(s, w, out);
     for (int w = 0; w < shown; w++) apart(s, w, out);
     for (int w = 0; w < shown; w++) merged(s, w, out);
     for (int j = 0; j < (s->def->axes > 1 ? s->def->axis[1].count : 1); j++) changes(s, j, out);

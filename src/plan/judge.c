@@ -211,9 +211,12 @@ static void tell(ves_plan *plan, ves_design *design)
     }
     for (int k = 0; k < p->validity.checks; k++)
         plan->checked[k] = ves_plan_holds(plan, p->validity.check[k].formula);
+    for (int k = p->kinds - 1; k >= 0; k--)
+        if (ves_plan_holds(plan, p->kind[k].formula)) design->kind = k;
     if (p->objective) design->objective = ves_plan_formula(plan, p->objective);
     if (p->objective && !isfinite(design->objective)) design->status = VES_NO_NUMBER;
     if (design->status == VES_OK) return;
+    design->kind = -1;
     design->objective = design->violation = NAN;
     design->feasible = false;
 }
@@ -230,6 +233,7 @@ ves_status ves_plan_measure(ves_plan *plan, const double *x, int level, ves_desi
                            .measure = plan->told,
                            .side = plan->sides,
                            .check = plan->checked,
+                           .kind = -1,
                            .objective = NAN,
                            .violation = NAN,
                            .similarity = plan->scaled ? plan->similarity : NAN};

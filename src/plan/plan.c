@@ -65,6 +65,7 @@ static int formula_room(const ves_problem *p)
         ROOM(p->constraint[k].right);
     }
     ROOM(p->objective);
+    for (int k = 0; k < p->kinds; k++) ROOM(p->kind[k].formula);
     for (int k = 0; k < p->validity.checks; k++) ROOM(p->validity.check[k].formula);
     if (p->solve) {
         ROOM(p->solve->left);

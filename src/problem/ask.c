@@ -78,6 +78,16 @@ const char *ves_problem_check(const ves_problem *problem, int index)
     return there(index, problem->validity.checks) ? problem->validity.check[index].text : NULL;
 }
 
+int ves_problem_kinds(const ves_problem *problem)
+{
+    return problem->kinds;
+}
+
+const char *ves_problem_kind(const ves_problem *problem, int index)
+{
+    return there(index, problem->kinds) ? problem->kind[index].name : NULL;
+}
+
 int ves_problem_patches(const ves_problem *problem)
 {
     return problem->patches;

@@ -48,6 +48,8 @@ static void scan(ves_reader *reader, const ves_fields *root)
     ves_reader_plain_measures(reader, ves_fields_find(root, "maximize"));
     scan_list(reader, ves_fields_find(root, "constraints"));
     scan_list(reader, ves_node_find(ves_fields_find(root, "validity"), "holds"));
+    for (int k = 0; k < reader->kinds.count; k++)
+        ves_reader_plain_measures(reader, reader->kinds.name[k].value);
     scan_list(reader, ves_fields_find(root, "expect"));
     scan_list(reader, ves_node_find(ves_fields_find(root, "test"), "expect"));
 }
@@ -250,6 +252,29 @@ static void read_holds(scope *s, const ves_node *list)
     validity->checks = all.count;
 }
 
+/* Names for designs: they drive nothing. */
+static void read_kinds(scope *s)
+{
+    ves_reader *reader = s->reader;
+    const ves_names *names = &reader->kinds;
+    ves_kind_def *out = ves_arena_take(reader->arena, (size_t)names->count, sizeof *out);
+    if (!ves_reader_memory(reader, out)) return;
+    reader->owner = IGNORED;
+    for (int k = 0; k < names->count; k++) {
+        const ves_node *node = names->name[k].value;
+        out[k] = (ves_kind_def){.name = names->name[k].text, .mark = ves_reader_mark(reader, node)};
+        if (!ves_reader_word(reader, node, "condition, as in width > 2*depth")) continue;
+        out[k].text = node->text;
+        out[k].formula = ves_reader_formula(reader, ves_text_whole(node), s->symbol, s->symbols);
+        if (out[k].formula && ves_formula_is_constant(out[k].formula, NULL))
+            ves_reader_error(reader, VES_RANGE, node,
+                             "this condition reads no measure, variable or parameter");
+    }
+    reader->owner = -1;
+    reader->problem->kind = out;
+    reader->problem->kinds = names->count;
+}
+
 static const ves_expect_def *read_expect(scope *s, const ves_node *list, int *count)
 {
     items all;
@@ -279,6 +304,7 @@ void ves_reader_goals(ves_reader *reader, const ves_fields *root)
     read_scale(&s, ves_fields_find(root, "scale"));
     read_objective(&s, root);
     read_constraints(&s, ves_fields_find(root, "constraints"));
+    read_kinds(&s);
     read_holds(&s, ves_node_find(ves_fields_find(root, "validity"), "holds"));
     s.check = ves_reader_symbols(reader, true, &s.checks);
     if (!s.check) return;

@@ -49,6 +49,8 @@ static void read_sections(ves_reader *reader, const ves_fields *root)
     ves_names_read(reader, ves_fields_find(root, "patches"), "patch", false, &reader->patches);
     ves_names_read(reader, ves_fields_find(root, "places"), "place", false, &reader->places);
     ves_names_read(reader, ves_fields_find(root, "measures"), "measure", true, &reader->measures);
+    ves_names_read(reader, ves_fields_find(root, "kinds"), "kind", false, &reader->kinds);
+    number_names(&reader->kinds);
     number_names(&reader->patches);
     number_names(&reader->places);
     static void (*const part[])(ves_reader *, const ves_fields *) = {

@@ -163,6 +163,14 @@ typedef struct ves_expect_def {
     const ves_formula *formula;
 } ves_expect_def;
 
+/* kinds: a name for the designs for which a formula is not 0, and none before it. Arguments: the measures. */
+typedef struct ves_kind_def {
+    const char *name;
+    ves_mark mark;
+    const char *text;
+    const ves_formula *formula;
+} ves_kind_def;
+
 enum {
     VES_EXPECT_OBJECTIVE,
     VES_EXPECT_VIOLATION,
@@ -211,6 +219,7 @@ typedef struct ves_sweep_branch {
     ves_mark mark; /* of what it sets */
     int sets;
     const ves_override *set;
+    int kind; /* that of all its points, the others are lost; -1: any */
 } ves_sweep_branch;
 
 typedef struct ves_sweep_def {
@@ -257,7 +266,9 @@ struct ves_problem {
     bool maximize;
     const ves_constraint_def *constraint;
     ves_validity_def validity;
-    int quadrature[2]; /* nodes along u and v; 0: chosen from the problem */
+    int kinds;
+    const ves_kind_def *kind; /* in the order in which they are tried */
+    int quadrature[2];        /* nodes along u and v; 0: chosen from the problem */
 
     ves_search_options search; /* stages; `auto` when the file says nothing */
     const ves_expect_def *expect;

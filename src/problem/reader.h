@@ -107,7 +107,7 @@ typedef struct ves_reader {
     bool surface;          /* FORMULAS are of u and v, not of v alone */
     const char *parameter; /* of a family, whose FORMULAS are of v and it; or NULL */
 
-    ves_names curves, patches, places, measures;
+    ves_names curves, patches, places, measures, kinds;
     const ves_node *vary; /* the section, or NULL */
     bool *curve_used;     /* [curves] */
     ves_curve_def *curve; /* [curves and sections] in the order of the problem */

@@ -293,8 +293,13 @@ static const ves_entry branch_setting[] = {
     {{"setting", VES_TEXT, .about = "what --set would say: a variable's start, a parameter, or a key"}, "zn: 0.4", NULL},
     END};
 
+static const ves_entry kind[] = {
+    {{"kind", KIND(VES_CHECK), .about = "a formula of measures, variables and parameters that tells the designs of this name"}, "oblate: width > 1.05*depth", NULL},
+    END};
+
 static const ves_entry branch_keys[] = {
     {{"set", KIND(VES_NAMED), .about = "changes of the file, as --set makes them"}, "set: {zn: 0.4, R: 1.3}", branch_setting},
+    {{"kind", VES_TEXT, .about = "one of `kinds`, the kind of all designs of the branch: a point that ends at another is lost, and the next one begins at the last that was of it. Unless given, any"}, "kind: oblate", NULL},
     END};
 
 static const ves_entry branch[] = {
@@ -328,6 +333,7 @@ static const ves_entry root[] = {
     {{"maximize", KIND(VES_GOAL), .about = "the objective, when more is better"}, "maximize: volume/area", NULL},
     {{"constraints", KIND(VES_LIST), .about = "relations that the shape must meet"}, "constraints: [area <= 14]", relation},
     {{"validity", KIND(VES_MAP), .about = "which surfaces are refused"}, "validity: {jacobian: positive, self_intersection: best}", validity_keys},
+    {{"kinds", KIND(VES_NAMED), .about = "names for designs: the first whose formula holds is the kind of a design; if none does, it is none of these. Runs and sweeps tell the kind of each result, and say where it changes"}, "kinds: {oblate: width > 1.05*depth, prolate: depth > 1.05*width}", kind},
     {{"quadrature", KIND(VES_MAP), .words = "auto", .about = "nodes of integrals on each patch; auto: chosen at the start design, and again at the best if that asks for more"}, "quadrature: {u: 16, v: 32}", quadrature_keys},
     {{"search", KIND(VES_LIST), .words = "auto", .about = "stages of the search; auto: a portfolio of basin hopping, CMA-ES and searches along the axes, then a polish of the best ends"}, "search: [{anneal: {evaluations: 20000}}, {polish: {algorithm: slsqp}}]", ves_schema_stage},
     {{"seed", KIND(VES_SEED), .fallback = 1, .about = "seed of the random numbers: same seed, same result"}, "seed: 7", NULL},

@@ -114,6 +114,10 @@ static void show_measure(const ves_problem *p, const ves_fields *root, int index
     if (p->scale && p->scale->measure == index &&
         find_source(p, (source){scale->text, {p->scale->target}}, m->dim, &m->shown))
         return;
+    for (int k = 0; k < p->validity.checks; k++) {
+        source s = {p->validity.check[k].text, {p->validity.check[k].formula}};
+        if (reads(s, index) && find_source(p, s, m->dim, &m->shown)) return;
+    }
     for (int k = 0; k < p->expects; k++) {
         source s = {p->expect[k].text, {p->expect[k].formula}};
         if (reads(s, index) && find_source(p, s, m->dim, &m->shown)) return;

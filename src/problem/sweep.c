@@ -221,9 +221,12 @@ static bool swept(const ves_sweep_def *sweep, const char *name)
 static void branch_read(axes *a, const ves_named *named, ves_sweep_branch *branch)
 {
     ves_fields f;
-    *branch = (ves_sweep_branch){.name = named->text, .mark = ves_reader_mark(a->reader, named->word)};
+    *branch =
+        (ves_sweep_branch){.name = named->text, .mark = ves_reader_mark(a->reader, named->word), .kind = -1};
     if (!ves_fields_read(a->reader, named->value, table_of("branches")->table, "branch", &f)) return;
-    const ves_node *set = ves_fields_find(&f, "set");
+    const ves_node *set = ves_fields_find(&f, "set"), *kind = ves_fields_find(&f, "kind");
+    const ves_named *found = kind ? ves_names_ask(a->reader, &a->reader->kinds, kind) : NULL;
+    if (found) branch->kind = found->index;
     if (!set) return;
     branch->set = ves_reader_overrides(a->reader, set, &branch->sets);
     for (int k = 0; set->kind == VES_NODE_MAP && k < set->count; k++)

@@ -35,6 +35,11 @@ ves_status ves_design_measure(ves_plan *plan, const ves_problem *problem, const 
     return VES_OK;
 }
 
+const char *ves_design_kind(const ves_problem *problem, int kind)
+{
+    return kind < 0 ? "none of these" : problem->kind[kind].name;
+}
+
 double ves_design_excess(double constraint, double within)
 {
     return constraint * (within / VES_FEASIBLE);

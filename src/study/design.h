@@ -11,6 +11,9 @@
 ves_status ves_design_measure(ves_plan *plan, const ves_problem *problem, const double *x, int level,
                               ves_arena *arena, ves_design *design);
 
+/* The name of a kind, as people are told it; -1: "none of these". */
+const char *ves_design_kind(const ves_problem *problem, int kind);
+
 /* The violation of what a search tells, as in a design: a verdict has those of the constraints in units of
  * their `within`. NAN when the candidate failed. */
 double ves_design_violation(const ves_problem *problem, const ves_record *record);

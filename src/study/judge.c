@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "problem/problem.h"
+#include "study/design.h"
 
 ves_status ves_judge_joints(ves_plan *plan, ves_run *run, ves_arena *arena)
 {
@@ -16,6 +17,17 @@ ves_status ves_judge_joints(ves_plan *plan, ves_run *run, ves_arena *arena)
     for (int k = 0; k < count && status == VES_OK; k++) status = ves_plan_joint(plan, k, &joint[k]);
     if (status == VES_OK) run->joint = joint, run->joints = count;
     return status < VES_OK ? status : VES_OK;
+}
+
+ves_status ves_judge_kind(const ves_run *run, ves_arena *arena, const char **note)
+{
+    const ves_design *a = &run->start, *b = &run->best;
+    *note = NULL;
+    if (!run->searched || !run->any || a->status != VES_OK || b->status != VES_OK || a->kind == b->kind)
+        return VES_OK;
+    *note = ves_arena_format(arena, "the search has left the kind of its start: %s, was %s",
+                             ves_design_kind(run->problem, b->kind), ves_design_kind(run->problem, a->kind));
+    return *note ? VES_OK : VES_MEMORY;
 }
 
 static bool holds(const ves_run *run, const ves_formula *formula, const double *argument, double *room)

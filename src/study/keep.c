@@ -7,6 +7,7 @@
 #include "output/file.h"
 #include "output/output.h"
 #include "study/annealing.h"
+#include "study/design.h"
 #include "study/folder.h"
 #include "study/gallery.h"
 #include "study/result.h"
@@ -131,13 +132,16 @@ static ves_status optimum_show(const keeper *k, int index, ves_shown_design *des
 {
     const ves_optimum *o = &k->run->optimum[index];
     const ves_shown *shown = &k->run->problem->objective_shown;
-    const char **note = ves_arena_take(k->arena, 2, sizeof *note);
+    const char **note = ves_arena_take(k->arena, 3, sizeof *note);
+    int notes = 0;
     char *value = ves_arena_format(k->arena, "%#.9g%s%s", o->value / shown->factor, *shown->unit ? " " : "",
                                    shown->unit);
     char *found = ves_arena_format(k->arena, o->hits == 1 ? "found once" : "found %d times", o->hits);
     if (!note || !value || !found) return VES_MEMORY;
-    note[0] = found, note[1] = "a saddle";
-    *design = (ves_shown_design){.x = o->x, .caption = value, .note = note, .notes = o->saddle ? 2 : 1};
+    note[notes++] = found;
+    if (k->run->problem->kinds) note[notes++] = ves_design_kind(k->run->problem, k->run->optimum_kind[index]);
+    if (o->saddle) note[notes++] = "a saddle";
+    *design = (ves_shown_design){.x = o->x, .caption = value, .note = note, .notes = notes};
     return VES_OK;
 }
 

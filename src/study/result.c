@@ -45,6 +45,12 @@ static void constraints(const ves_problem *problem, const ves_design *design, ve
     ves_json_end(json, ']');
 }
 
+/* null: none of these, or it cannot be measured. */
+static void kind(const ves_problem *problem, int k, ves_json *json)
+{
+    if (problem->kinds) ves_json_text(json, "kind", ves_problem_kind(problem, k));
+}
+
 static void checks(const ves_problem *problem, const ves_design *design, ves_json *json)
 {
     const ves_validity_def *v = &problem->validity;
@@ -97,6 +103,7 @@ static void unknown(const ves_problem *problem, const ves_design *design, ves_js
 
 void ves_result_design(const ves_problem *problem, const ves_design *design, ves_json *json)
 {
+    kind(problem, design->kind, json);
     variables(problem, design->x, json);
     measures(problem, design, json);
     ves_json_number(json, "objective", design->objective);
@@ -128,6 +135,7 @@ static void grids(const ves_run *run, ves_json *json)
 static void start(const ves_run *run, ves_json *json)
 {
     ves_json_object(json, "start");
+    kind(run->problem, run->start.kind, json);
     ves_json_number(json, "objective", run->start.objective);
     ves_json_number(json, "violation", run->start.violation);
     variables(run->problem, run->start.x, json);
@@ -143,6 +151,7 @@ static void optima(const ves_run *run, ves_json *json)
         ves_json_object(json, NULL);
         ves_json_number(json, "value", o->value);
         ves_json_number(json, "violation", o->violation);
+        kind(run->problem, run->optimum_kind[k], json);
         ves_json_integer(json, "hits", o->hits);
         ves_json_flag(json, "saddle", o->saddle);
         variables(run->problem, o->x, json);
@@ -380,6 +389,7 @@ void ves_result_write(const ves_run *run, ves_json *json)
     ves_json_flag(json, "maximize", problem->maximize);
     ves_json_number(json, "objective", run->best.objective);
     ves_json_flag(json, "feasible", run->feasible);
+    kind(problem, run->best.kind, json);
     ves_json_number(json, "violation", run->best.violation);
     variables(problem, run->best.x, json);
     measures(problem, &run->best, json);

@@ -331,6 +331,9 @@ static ves_status work(ves_study *s)
     if (s->hooks->begun) s->hooks->begun(s->hooks->data, run);
     VES_TRY(run->searched ? search(s) : once(s));
     run->finer_change = ves_plan_change(s->plan[0], &run->best, &run->finer);
+    const char *note;
+    if (ves_judge_kind(run, s->arena, &note) != VES_OK) return ves_diag_fail(s->diag, VES_MEMORY);
+    if (note) VES_TRY(ves_study_note(s, note));
     if (ves_judge_joints(s->plan[0], run, s->arena) != VES_OK ||
         (!s->options->once && ves_judge_expect(run, s->options->test, s->arena) != VES_OK))
         return ves_diag_fail(s->diag, VES_MEMORY);

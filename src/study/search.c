@@ -90,7 +90,8 @@ static ves_status optima_take(ves_study *s, const ves_search_result *r)
 {
     double sign = s->problem->maximize ? -1 : 1;
     ves_optimum *optimum = ves_arena_take(s->arena, (size_t)r->optima, sizeof *optimum);
-    if (!optimum) return VES_MEMORY;
+    int *kind = ves_arena_take(s->arena, (size_t)r->optima, sizeof *kind);
+    if (!optimum || !kind) return VES_MEMORY;
     for (int k = 0; k < r->optima; k++) {
         double *x = ves_arena_take(s->arena, (size_t)r->n, sizeof *x);
         if (!x) return VES_MEMORY;
@@ -102,8 +103,10 @@ static ves_status optima_take(ves_study *s, const ves_search_result *r)
         ves_design design; /* its violation is in units of sizes, a verdict's in those of each `within` */
         VES_TRY(ves_design_measure(s->plan[0], s->problem, x, 0, s->arena, &design));
         optimum[k].violation = design.violation;
+        kind[k] = design.kind;
     }
     s->run->optimum = optimum;
+    s->run->optimum_kind = kind;
     s->run->optima = r->optima;
     return VES_OK;
 }

@@ -42,6 +42,7 @@ typedef struct ves_sweep_point {
     bool done;
     bool good;          /* feasible, proved and converged: what the next point begins at */
     const char *reason; /* why not; NULL: good */
+    int kind;           /* of the best there was, an index in kinds; -1: none, or not known */
     bool feasible;      /* it meets the constraints, proved or not */
     double *column;     /* [first[VES_SWEEP_GROUPS]] SI, of the best there was; NAN: not known */
     double slope;       /* what is left of it there (ves_kkt.slope), of the objective, SI; NAN: not known */
@@ -92,6 +93,8 @@ void ves_sweep_destroy(ves_sweep *sweep); /* NULL: nothing */
 /* Which value of the first parameter point `index` stands at; the point of a walk at one. */
 int ves_sweep_place(const ves_sweep *sweep, int index);
 int ves_sweep_point_at(const ves_sweep *sweep, int walk, int place);
+/* The point of the walk at which this one began, if both were measured and are of different kinds; -1: none. */
+int ves_sweep_turned(const ves_sweep *sweep, int index);
 /* The walk of the same branch and second value the other way; -1: there is none. */
 int ves_sweep_return(const ves_sweep *sweep, int walk);
 

@@ -188,3 +188,19 @@ bool ves_sweep_change_find(const ves_sweep *s, int second, int place, ves_sweep_
     }
     return false;
 }
+
+static bool is_measured(const ves_sweep *s, int index)
+{
+    const ves_sweep_point *point = &s->point[index];
+    return point->done && isfinite(point->column[s->first[VES_SWEEP_VIOLATION]]);
+}
+
+int ves_sweep_turned(const ves_sweep *s, int index)
+{
+    int before = index - 1;
+    if (!s->problem->kinds || !is_measured(s, index)) return -1;
+    while (before >= 0 && before / s->count == index / s->count && !s->point[before].good) before--;
+    bool turned =
+        before >= 0 && before / s->count == index / s->count && s->point[before].kind != s->point[index].kind;
+    return turned ? before : -1;
+}

@@ -8,6 +8,7 @@
 
 #include "base/diag.h"
 #include "output/file.h"
+#include "study/design.h"
 #include "study/folder.h"
 #include "study/load.h"
 
@@ -115,7 +116,11 @@ void ves_sweep_point_json(const ves_sweep *sweep, int index, bool compared, bool
     place_json(sweep, index, json);
     ves_json_text(json, "status", point->good ? "ok" : "lost");
     ves_json_text(json, "reason", point->reason);
+    if (sweep->problem->kinds) ves_json_text(json, "kind", ves_problem_kind(sweep->problem, point->kind));
     if (compared) {
+        const int before = ves_sweep_turned(sweep, index);
+        if (before >= 0)
+            ves_json_text(json, "was", ves_design_kind(sweep->problem, sweep->point[before].kind));
         ves_json_integer(json, "optimum", point->optimum);
         ves_json_flag(json, "best", point->best);
     }
@@ -221,12 +226,22 @@ static bool is_point(const ves_sweep *sweep, const ves_node *line, int index)
     return same;
 }
 
+static int kind_read(const ves_problem *problem, const ves_node *line)
+{
+    const char *word = ves_json_word(line, "kind");
+    int kind = word ? problem->kinds - 1 : -1;
+    while (kind >= 0 && strcmp(problem->kind[kind].name, word)) kind--;
+    return kind;
+}
+
 static bool point_read(const ves_sweep *sweep, const ves_node *line, int index, ves_arena *arena)
 {
     ves_sweep_point *point = &sweep->point[index];
     const char *status = ves_json_word(line, "status");
     if (!status || !is_point(sweep, line, index)) return false;
-    *point = (ves_sweep_point){.good = !strcmp(status, "ok"), .feasible = ves_json_true(line, "feasible")};
+    *point = (ves_sweep_point){.good = !strcmp(status, "ok"),
+                               .feasible = ves_json_true(line, "feasible"),
+                               .kind = kind_read(sweep->problem, line)};
     if (!point->good) point->reason = kept(ves_json_word(line, "reason"), arena);
     point->column = ves_arena_take(arena, (size_t)sweep->first[VES_SWEEP_GROUPS], sizeof *point->column);
     if (!point->column || !notes_read(ves_node_find(line, "notes"), point, arena)) return false;

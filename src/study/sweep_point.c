@@ -7,6 +7,7 @@
 #include "base/diag.h"
 #include "base/text.h"
 #include "output/output.h"
+#include "study/design.h"
 #include "study/folder.h"
 #include "study/run.h"
 
@@ -92,12 +93,21 @@ static bool same_constraints(const ves_problem *a, const ves_problem *b)
     return same;
 }
 
+static bool same_kinds(const ves_problem *a, const ves_problem *b)
+{
+    bool same = a->kinds == b->kinds;
+    for (int k = 0; same && k < a->kinds; k++)
+        same = !strcmp(a->kind[k].name, b->kind[k].name) && !strcmp(a->kind[k].text, b->kind[k].text);
+    return same;
+}
+
 /* Points are told in the same columns and ranked by the same measure of them. What of it is not so; NULL: all is. */
 static const char *unlike(const ves_problem *a, const ves_problem *b)
 {
     return !same_variables(a, b)     ? "the names of the variables"
            : !same_goal(a, b)        ? "what is minimized or maximized"
            : !same_constraints(a, b) ? "the constraints"
+           : !same_kinds(a, b)       ? "the kinds"
            : !same_measures(a, b)    ? "the measures"
                                      : NULL;
 }
@@ -219,8 +229,20 @@ static ves_status lose_infeasible(search *s, const ves_run *run)
     return lose(s, text);
 }
 
+/* The kind that the branch is of. */
+static ves_status lose_branch(search *s, const ves_run *run, int kind)
+{
+    char text[SENTENCE];
+    snprintf(text, sizeof text, "left its branch: %.100s, not %.100s",
+             ves_design_kind(run->problem, run->best.kind), ves_design_kind(run->problem, kind));
+    return lose(s, text);
+}
+
 static ves_status judge(search *s, const ves_run *run)
 {
+    const ves_sweep *sweep = s->task->sweep;
+    const int branch = sweep->walk[s->index / sweep->count].branch;
+    const int kind = sweep->def->branches ? sweep->def->branch[branch].kind : -1;
     s->point->good = true;
     if (!run->any) return lose_unmeasured(s, run);
     if (!run->best.feasible) return lose_infeasible(s, run);
@@ -228,6 +250,7 @@ static ves_status judge(search *s, const ves_run *run)
     if (run->searched && run->ending == VES_ENDED_BUDGET &&
         !(run->kkt.known && run->kkt.residual <= CONVERGED))
         return lose(s, "not converged: the budget was too short");
+    if (kind >= 0 && run->best.kind != kind) return lose_branch(s, run, kind);
     return VES_OK;
 }
 
@@ -286,6 +309,7 @@ static ves_status take(search *s, const ves_run *run)
     VES_TRY(notes_take(s, run));
     s->point->feasible = run->any && run->best.feasible;
     s->point->slope = run->kkt.known ? run->kkt.slope : NAN;
+    if (run->any) s->point->kind = run->best.kind;
     if (run->any) columns_fill(s->task->sweep, run, s->point->column);
     return s->point->good ? shape_write(s, run) : VES_OK;
 }
@@ -334,7 +358,7 @@ ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, const dou
 {
     search s = {.task = task, .index = index, .from = from, .kept = arena, .diag = diag};
     s.point = &task->sweep->point[index];
-    *s.point = (ves_sweep_point){.slope = NAN};
+    *s.point = (ves_sweep_point){.slope = NAN, .kind = -1};
     double begin = ves_study_clock();
     ves_status status = find(&s);
     s.point->wall = ves_study_clock() - begin;

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "output/chart.h"
 #include "output/file.h"
+#include "study/design.h"
 #include "study/folder.h"
 #include "study/sweep_folder.h"
 
@@ -157,7 +158,8 @@ static void table_head(const ves_sweep *s, FILE *out)
     fputs(s->def->branches ? "point,walk,branch,direction" : "point,walk,direction", out);
     for (int k = 0; k < s->def->axes; k++)
         put_head(out, "", s->def->axis[k].name, p->parameter[s->def->axis[k].parameter].shown.unit);
-    fputs(",status,reason,optimum,best,feasible", out);
+    fputs(p->kinds ? ",status,reason,kind,was,optimum,best,feasible" : ",status,reason,optimum,best,feasible",
+          out);
     put_head(out, "", "objective", p->objective_shown.unit);
     fputs(",violation", out);
     for (int k = 0; k < p->measures; k++) put_head(out, "", p->measure[k].name, p->measure[k].shown.unit);
@@ -208,6 +210,15 @@ static void table_numbers(const ves_sweep *s, const double *column, FILE *out)
     if (p->solve) put_number(out, column[first[VES_SWEEP_UNKNOWN]], p->solve->shown.factor);
 }
 
+/* Of which kind it is, and the one that it began at was, if of another. */
+static void table_kind(const ves_sweep *s, int index, FILE *out)
+{
+    const double violation = s->point[index].column[s->first[VES_SWEEP_VIOLATION]];
+    const int before = ves_sweep_turned(s, index);
+    put(out, ",%s", isfinite(violation) ? ves_design_kind(s->problem, s->point[index].kind) : "");
+    put(out, ",%s", before >= 0 ? ves_design_kind(s->problem, s->point[before].kind) : "");
+}
+
 static void table_fill(const reporter *r, FILE *out)
 {
     const ves_sweep *s = r->sweep;
@@ -218,6 +229,7 @@ static void table_fill(const reporter *r, FILE *out)
         table_place(s, k, out);
         put(out, ",%s,", point->good ? "ok" : "lost");
         if (point->reason) put_text(out, point->reason);
+        if (s->problem->kinds) table_kind(s, k, out);
         put(out, ",%d,%s,%s", point->optimum, point->best ? "true" : "false",
             point->feasible ? "true" : "false");
         table_numbers(s, point->column, out);
