@@ -34,6 +34,10 @@ Test(cli_checks, a_shape_that_cheats_between_the_nodes_is_refused_by_what_the_fi
                           "\"abs(gauss_curvature - 4*pi) < 1\", with gauss_curvature = ") != NULL,
               "%s", log);
     free(log);
+    /* gone on with, the proof that the sentence is about comes from the journal */
+    cr_assert(system("cp -r holds part && rm part/result.json && truncate -s 9000 part/journal") == 0);
+    expect(vesica(NULL, "run --resume part --jobs 2"), 0, "a best was refused by its proof", NULL, "resume");
+    same_file("holds/result.json", "part/result.json");
     expect(vesica(NULL, "check holds.yaml --set s=0.2"), 1, "DOES NOT HOLD",
            "holds.yaml:6:35: warning: the design did not pass its checks: a check of the file does not hold",
            "check");
