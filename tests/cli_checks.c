@@ -41,5 +41,13 @@ Test(cli_checks, a_shape_that_cheats_between_the_nodes_is_refused_by_what_the_fi
     expect(vesica(NULL, "check holds.yaml --set s=0.2"), 1, "DOES NOT HOLD",
            "holds.yaml:6:35: warning: the design did not pass its checks: a check of the file does not hold",
            "check");
+    write_file("sweep.yaml", SPHERE
+               "parameters: {K: 4*pi}\nvalidity: {jacobian: any, holds: [abs(gauss_curvature - K) < 1]}\n"
+               "start: {s: 0.2}\nsweep: {over: {K: [12, 12.5]}}\n");
+    expect(
+        vesica(NULL, "sweep sweep.yaml --out sweep"), 1,
+        "lost       at K = 12 ... 12.5: the best did not pass its checks: a check of the file does not hold: "
+        "\"abs(gauss_curvature - K) < 1\", with gauss_curvature = ",
+        NULL, "sweep");
     root_remove();
 }

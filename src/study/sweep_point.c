@@ -229,6 +229,21 @@ static ves_status lose_infeasible(search *s, const ves_run *run)
     return lose(s, text);
 }
 
+/* With the reason of its proofs, if they had but one. */
+static ves_status lose_unproved(search *s, const ves_run *run)
+{
+    static const char refused[] = "a best was refused by its proof: ";
+    const char *why = NULL;
+    char text[SENTENCE];
+    int reasons = 0;
+    for (int k = 0; k < run->notes; k++)
+        if (!strncmp(run->note[k], refused, sizeof refused - 1))
+            why = run->note[k] + sizeof refused - 1, reasons++;
+    snprintf(text, sizeof text, "the best did not pass its checks%s%s", reasons == 1 ? ": " : "",
+             reasons == 1 ? why : "");
+    return lose(s, text);
+}
+
 /* The kind that the branch is of. */
 static ves_status lose_branch(search *s, const ves_run *run, int kind)
 {
@@ -246,7 +261,7 @@ static ves_status judge(search *s, const ves_run *run)
     s->point->good = true;
     if (!run->any) return lose_unmeasured(s, run);
     if (!run->best.feasible) return lose_infeasible(s, run);
-    if (!run->feasible) return lose(s, "the best did not pass its checks");
+    if (!run->feasible) return lose_unproved(s, run);
     if (run->searched && run->ending == VES_ENDED_BUDGET &&
         !(run->kkt.known && run->kkt.residual <= CONVERGED))
         return lose(s, "not converged: the budget was too short");
