@@ -49,7 +49,8 @@ static void run(const trial *t, int jobs, char *text[SAME], size_t length[SAME])
     ves_run *r;
     ves_diag *diag = ves_diag_create();
     read_problem(t, &problem, diag);
-    snprintf(folder, sizeof folder, "%s", path_of(t->name));
+    const char *slash = strrchr(t->name, '/');
+    snprintf(folder, sizeof folder, "%s", path_of(slash ? slash + 1 : t->name));
     ves_run_options options = {.evaluations = t->evaluations, .jobs = jobs, .files = true, .out = folder};
     cr_assert_eq(ves_run_create(problem, &options, NULL, &r, diag), VES_OK, "%s", t->name);
     cr_assert_eq(r->jobs, jobs);
@@ -104,7 +105,7 @@ Test(study_bytes, of_an_equation_that_is_solved)
 
 Test(study_bytes, of_an_equation_that_is_scaled)
 {
-    check(&(trial){"vesicle", NULL, 1500, 0});
+    check(&(trial){"vesicle/book", NULL, 1500, 0});
 }
 
 Test(study_bytes, of_bests_that_their_proof_refuses)
