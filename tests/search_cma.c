@@ -1,7 +1,7 @@
 /* CMA-ES: what must not matter does not, and what is learned is right. */
 #include "search_cma.h"
 
-#include "search/eigen.h"
+#include "base/eigen.h"
 
 /* ---- what follows from n and lambda ---- */
 

@@ -3,8 +3,8 @@
 #include <criterion/new/assert.h>
 #include <stdio.h>
 
+#include "base/eigen.h"
 #include "base/random.h"
-#include "search/eigen.h"
 #include "search_problems.h"
 
 #pragma GCC diagnostic ignored "-Wconversion" /* Criterion's own macros */

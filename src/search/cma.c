@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/eigen.h"
 #include "base/random.h"
-#include "search/eigen.h"
 #include "search/point.h"
 
 /* Letters and equation numbers as in the tutorial (Hansen 2016, arXiv 1604.00772, appendix A). Departures:

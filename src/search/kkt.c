@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "search/basis.h"
+#include "base/basis.h"
 #include "search/saddle.h"
 
 /* Karush-Kuhn-Tucker conditions [Nocedal and Wright 2006, 12.3]; least-squares multipliers that are not negative

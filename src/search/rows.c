@@ -1,6 +1,6 @@
 #include <math.h>
 
-#include "search/basis.h"
+#include "base/basis.h"
 #include "search/descent.h"
 
 /* SQP solves for all equations at once, which has no answer where their gradients depend on each other or

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "search/basis.h"
-#include "search/eigen.h"
+#include "base/basis.h"
+#include "base/eigen.h"
 
 /* Hessian of the Lagrangian  L = f + sum_j lambda_j c_j  on what the active walls and constraints leave
  * free (Nocedal and Wright, 12.5). With P the projection along the active gradients, the eigenvalues of P

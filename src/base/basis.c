@@ -1,4 +1,4 @@
-#include "search/basis.h"
+#include "base/basis.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* Gram-Schmidt: rows made orthogonal to unit rows that are so already (Golub and Van Loan, 5.2.7). */
-#ifndef VES_SEARCH_BASIS_H
-#define VES_SEARCH_BASIS_H
+#ifndef VES_BASE_BASIS_H
+#define VES_BASE_BASIS_H
 
 double ves_basis_size(int n, const double *row);
 

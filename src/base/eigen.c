@@ -1,4 +1,4 @@
-#include "search/eigen.h"
+#include "base/eigen.h"
 
 #include <math.h>
 
