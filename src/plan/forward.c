@@ -46,7 +46,7 @@ double ves_plan_formula(ves_plan *plan, const ves_formula *formula)
 static ves_status scale(ves_plan *plan, int index, bool gradient)
 {
     const ves_scale *sc = plan->problem->scale;
-    if (!sc) return VES_OK;
+    if (!sc || plan->frozen) return VES_OK;
     VES_TRY(sample(plan, index, PROGRAM_SCALE, gradient));
     VES_TRY(measure(plan, index, PROGRAM_SCALE));
     double ratio = ves_plan_formula(plan, sc->target) / plan->value[sc->measure];

@@ -18,7 +18,7 @@ static double *row(const ves_plan *plan, int output)
 
 /* From the adjoints of measures (measure_adjoint) to number block adjoints. Samples must be those of this
  * program. */
-static ves_status sweep(ves_plan *plan, int index, plan_program which, double *by_similarity)
+ves_status ves_plan_sweep(ves_plan *plan, int index, plan_program which, double *by_similarity)
 {
     const ves_problem *p = plan->problem;
     plan_level *l = &plan->level[index];
@@ -56,7 +56,7 @@ ves_status ves_plan_gradient(ves_plan *plan, int index, int output, const ves_fo
     for (int k = 0; k < count; k++)
         ves_formula_gradient(formula[k], plan->block, plan->value, seed[k], plan->block_adjoint,
                              plan->measure_adjoint, plan->formula_room);
-    VES_TRY(sweep(plan, index, which, &plan->row_similarity[output]));
+    VES_TRY(ves_plan_sweep(plan, index, which, &plan->row_similarity[output]));
     ves_plan_pull(plan, plan->block_adjoint, row(plan, output));
     return VES_OK;
 }
@@ -77,7 +77,7 @@ static ves_status follow_scale(ves_plan *plan, int index, int outputs)
     memset(plan->block_adjoint, 0, sizeof(double) * (size_t)plan->problem->block);
     memset(plan->unit_row, 0, sizeof(double) * (size_t)slots(plan));
     plan->measure_adjoint[sc->measure] = -f / m;
-    VES_TRY(sweep(plan, index, PROGRAM_SCALE, &by_similarity));
+    VES_TRY(ves_plan_sweep(plan, index, PROGRAM_SCALE, &by_similarity));
     ves_formula_gradient(sc->target, plan->block, plan->value, f / target, plan->block_adjoint, NULL,
                          plan->formula_room);
     ves_plan_pull(plan, plan->block_adjoint, plan->unit_row);

@@ -2,6 +2,7 @@
 #ifndef VES_PLAN_INSIDE_H
 #define VES_PLAN_INSIDE_H
 
+#include "plan/displace.h"
 #include "problem/problem.h"
 #include "surface/figure.h"
 #include "surface/forms.h"
@@ -38,9 +39,10 @@ typedef struct plan_site {
     bool varies;
     bool looked;  /* a look: filled since the other sites were sampled */
     bool pole[2]; /* a look that has forms, on a patch whose end is a point: they are limits there */
-    unsigned needs[PROGRAMS]; /* VES_X | ... */
-    unsigned wants;           /* all of them */
-    unsigned slopes;          /* of the sweep at hand: planes whose adjoint some measure adds to */
+    unsigned needs[PROGRAMS];              /* VES_X | ... */
+    unsigned wants;                        /* all of them */
+    const plan_displacement *displacement; /* NULL: sampled as it is */
+    unsigned slopes; /* of the sweep at hand: planes whose adjoint some measure adds to */
 } plan_site;
 
 /* One measure at one level. */
@@ -85,8 +87,10 @@ struct ves_plan {
     ves_curves *curves;
     ves_bound bound;
     ves_patch **patch;
-    bool trial;    /* see ves_plan_try */
-    bool branched; /* no oriented mesh: more than two patches end on some curve, or a sheet has one side */
+    bool trial;     /* see ves_plan_try */
+    bool displaced; /* see ves_plan_loose */
+    bool frozen;    /* in its size: scale: is not asked again */
+    bool branched;  /* no oriented mesh: more than two patches end on some curve, or a sheet has one side */
     plan_sheet *sheet; /* [patches] */
     double *side;      /* [patches] +1: Xu x Xv points outward */
     int *
@@ -137,6 +141,9 @@ struct ves_plan {
 ves_status ves_plan_make(const ves_problem *problem, const int quadrature[2], ves_plan **plan,
                          ves_diag *diag);
 ves_status ves_plan_try(const ves_problem *problem, const int quadrature[2], ves_plan **plan);
+/* Its sites may be displaced: every one has adjoints, and what `scale:` holds is judged too. */
+ves_status ves_plan_loose(const ves_problem *problem, const int quadrature[2], ves_plan **plan,
+                          ves_diag *diag);
 
 /* level.c. face: its sites take the sides of their patches. */
 ves_status ves_plan_level_build(ves_plan *plan, int index);
@@ -181,6 +188,8 @@ ves_status ves_plan_measure_all(ves_plan *plan, const double *x, int level);
 ves_status ves_plan_gradient(ves_plan *plan, int level, int output, const ves_formula *const *formula,
                              const double *seed, int count, plan_program which);
 ves_status ves_plan_follow(ves_plan *plan, int level, int outputs);
+/* From plan->measure_adjoint to block_adjoint and displacements. */
+ves_status ves_plan_sweep(ves_plan *plan, int level, plan_program which, double *by_similarity);
 
 /* figure.c, after plan_forward; proof.c: does the shape of the last evaluation cross itself? */
 ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **figure);

@@ -26,6 +26,7 @@ static ves_status runs_make(ves_plan *plan)
         runs_add(plan, PROGRAM_SOLVE, p->solve->right);
     }
     runs_add(plan, PROGRAM_JUDGE, p->objective);
+    if (p->scale && plan->displaced) plan->runs[PROGRAM_JUDGE][p->scale->measure] = true;
     for (int k = 0; k < p->constraints; k++) {
         runs_add(plan, PROGRAM_JUDGE, p->constraint[k].left);
         runs_add(plan, PROGRAM_JUDGE, p->constraint[k].right);
@@ -259,14 +260,17 @@ static ves_status build(ves_plan *plan, const int quadrature[2], ves_diag *diag)
     return VES_OK;
 }
 
-static ves_status make(const ves_problem *problem, const int quadrature[2], bool trial, ves_plan **out,
-                       ves_diag *diag)
+typedef enum plan_manner { USUAL, TRIAL, LOOSE } plan_manner;
+
+static ves_status make(const ves_problem *problem, const int quadrature[2], plan_manner manner,
+                       ves_plan **out, ves_diag *diag)
 {
     int before = ves_diag_errors(diag);
     ves_plan *plan = ves_memory_take(sizeof *plan);
     ves_status status = plan ? VES_OK : VES_MEMORY;
     *out = NULL;
-    if (plan) plan->problem = problem, plan->change = NAN, plan->trial = trial;
+    if (plan) plan->problem = problem, plan->change = NAN;
+    if (plan) plan->trial = manner == TRIAL, plan->displaced = manner == LOOSE;
     if (status == VES_OK) status = build(plan, quadrature, diag);
     if (status == VES_OK) {
         *out = plan;
@@ -279,12 +283,18 @@ static ves_status make(const ves_problem *problem, const int quadrature[2], bool
 
 ves_status ves_plan_make(const ves_problem *problem, const int quadrature[2], ves_plan **plan, ves_diag *diag)
 {
-    return make(problem, quadrature, false, plan, diag);
+    return make(problem, quadrature, USUAL, plan, diag);
+}
+
+ves_status ves_plan_loose(const ves_problem *problem, const int quadrature[2], ves_plan **plan,
+                          ves_diag *diag)
+{
+    return make(problem, quadrature, LOOSE, plan, diag);
 }
 
 ves_status ves_plan_try(const ves_problem *problem, const int quadrature[2], ves_plan **plan)
 {
-    return make(problem, quadrature, true, plan, NULL);
+    return make(problem, quadrature, TRIAL, plan, NULL);
 }
 
 static bool in_range(int count, int most)

@@ -100,7 +100,7 @@ ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind)
             memcpy(m->u_range, d->u_range, sizeof d->u_range);
             memcpy(m->v_range, d->v_range, sizeof d->v_range);
         }
-        s->varies = ves_patch_varies(plan->patch[s->patch]) || plan->problem->scale;
+        s->varies = ves_patch_varies(plan->patch[s->patch]) || plan->problem->scale || plan->displaced;
         VES_TRY(ves_chart_create(plan->patch[s->patch], &s->grid, chart_fields(plan, s, kind), &plan->arena,
                                  &s->chart));
         VES_TRY(tiles_cut(plan, s));
@@ -266,6 +266,7 @@ static ves_status site_fill(ves_plan *plan, plan_site *s, unsigned needs, bool g
         bool at_pole = tile_fields(s, tile, needs, pole);
         ves_chart_sample(s->chart, tile, field);
         if (plan->similarity != 1) ves_tile_scale(tile, plan->similarity, field);
+        if (s->displacement) ves_displace(s->displacement, tile, field);
         fields_store(tile, needs, field, &s->samples);
         if (needs & FORM_NEEDS) {
             const ves_tile_planes *of = at_pole ? unfolded(plan, tile, pole, field) : field;
@@ -444,6 +445,10 @@ ves_status ves_site_scatter(ves_plan *plan, plan_site *s, double *by_similarity)
     for (int k = 0; k < s->tiles; k++) {
         ves_tile *tile = &s->tile[k];
         adjoint_make(plan, s, tile, &s->kept[k]);
+        if (s->displacement) {
+            ves_displace_gradient(s->displacement, tile, plan->field_adjoint);
+            continue;
+        }
         if (scaled) *by_similarity += tile_unscale(tile, plan->similarity, &s->kept[k], plan->field_adjoint);
         ves_chart_scatter(s->chart, tile, plan->field_adjoint);
     }
@@ -452,5 +457,6 @@ ves_status ves_site_scatter(ves_plan *plan, plan_site *s, double *by_similarity)
 
 void ves_site_gather(ves_plan *plan, plan_site *s)
 {
-    if (s->chart && s->varies && !idle(s)) ves_chart_gather(s->chart, &plan->bound, plan->block_adjoint);
+    if (s->chart && s->varies && !idle(s) && !s->displacement)
+        ves_chart_gather(s->chart, &plan->bound, plan->block_adjoint);
 }
