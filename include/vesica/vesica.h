@@ -14,6 +14,7 @@
 #include "vesica/problem.h"
 #include "vesica/run.h"
 #include "vesica/search.h"
+#include "vesica/stability.h"
 #include "vesica/status.h"
 #include "vesica/verdict.h"
 

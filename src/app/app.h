@@ -25,10 +25,10 @@ typedef struct app_options {
     int sets, plugins;
     ves_override set[APP_SETS];
     const char *plugin[APP_PLUGINS + 1]; /* ends with NULL */
-    bool seeded, json, test, no_files, reference, viewed, spines, suite, forget, help;
+    bool seeded, counted, json, test, no_files, reference, viewed, spines, suite, forget, help;
     uint64_t seed;
     long evaluations;
-    int jobs, spine, grid[2];
+    int jobs, spine, modes, functions, grid[2];
     double metres;       /* of the unit of export; 0: none is asked for */
     double view[2];      /* radians: azimuth, height */
     const char *decides; /* an option that a resumed run has decided already, or NULL */
@@ -68,6 +68,7 @@ int app_bench(app *a);
 int app_sweep(app *a);
 int app_journal(app *a);
 int app_eval(app *a);
+int app_stability(app *a);
 int app_check(app *a);
 int app_sample(app *a);
 int app_export(app *a);

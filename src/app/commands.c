@@ -35,6 +35,13 @@ const app_command app_commands[] = {
      "feasible: the constraints hold. Whether the surface crosses itself and a finer grid agrees is looked "
      "at by\n"
      "`vesica check`, and by a run for its bests."},
+    {"stability", "stability FILE|RUN",
+     "is the shape a minimum among all shapes near it? Which way is it softest?", 1, 1,
+     PROBLEM "|modes|functions", app_stability,
+     "Closed surfaces of revolution. docs/stability.md tells what the eigenvalues are. Exit code: 0 when "
+     "none is "
+     "negative\n"
+     "beyond its error, 1 when one is."},
     {"journal", "journal RUN", "all evaluations of a run, one a line", 1, 1, "to|png", app_journal,
      "In SI units, as in result.json, with the sign of the goal. A constraint's column says by how much it "
      "is missed,\n"

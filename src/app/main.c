@@ -77,7 +77,6 @@ const char *app_called(void)
 static const char *later(const char *word)
 {
     static const char *const words[][2] = {
-        {"stability", "the stability of a result"},
         {"report", "report pages"},
         {"compare", "comparing runs"},
         {"serve", "the live designer"},

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "base/vector.h"
 #include "formula/dimension.h"
+#include "vesica/stability.h"
 
 enum { OPTIONS = 64 };
 
@@ -111,6 +112,24 @@ static bool take_jobs(app *a, const char *value)
     if (!whole(value, 1, 256, &jobs))
         return wrong(a, "--jobs needs a whole number from 1 to 256, got \"%s\"", value);
     a->options.jobs = (int)jobs;
+    return true;
+}
+
+static bool take_modes(app *a, const char *value)
+{
+    long modes;
+    if (!whole(value, 0, VES_STABILITY_MODES, &modes))
+        return wrong(a, "--modes needs the highest azimuthal mode, 0 to 12, got \"%s\"", value);
+    a->options.modes = (int)modes;
+    return a->options.counted = true;
+}
+
+static bool take_functions(app *a, const char *value)
+{
+    long functions;
+    if (!whole(value, 6, VES_STABILITY_FUNCTIONS, &functions))
+        return wrong(a, "--functions needs a whole number from 6 to 96, got \"%s\"", value);
+    a->options.functions = (int)functions;
     return true;
 }
 
@@ -238,6 +257,8 @@ static const option table[] = {
     {"plugin", "FILE", "load measures from a shared object; may be repeated", take_plugin},
     {"patch", "NAME", "which patch (needed when there are several)", take_patch},
     {"points", "FILE", "CSV of u (0 to 1), v (0 to 2 pi), whatever `domain` says; - is stdin", take_points},
+    {"modes", "N", "azimuthal modes n = 0 ... N (4, unless said; 12 at most)", take_modes},
+    {"functions", "N", "of the arc length, that displacements are made of (32, unless said)", take_functions},
     {"spine", "N", "N points of the spine, the mean over v, from end to end, with its first two derivatives by u", take_spine},
     {"spines", NULL, "the spines of PDE patches too: drawn over the shape, or in files NAME-spines.vtp, .obj, .csv", take_spines},
     {"to", "FORMAT[,FORMAT]", "see vesica list formats; a journal: csv (unless said), jsonl", take_to},

@@ -1,0 +1,153 @@
+/* vesica stability */
+#include <math.h>
+
+#include "app/app.h"
+#include "app/table.h"
+#include "vesica/stability.h"
+
+/* --- JSON --- */
+
+static void mode_json(const ves_firmness_mode *m, ves_json *json)
+{
+    ves_json_object(json, NULL);
+    ves_json_integer(json, "n", m->n);
+    ves_json_array(json, "values");
+    for (int k = 0; k < m->values; k++) ves_json_number(json, NULL, m->value[k]);
+    ves_json_end(json, ']');
+    ves_json_array(json, "errors");
+    for (int k = 0; k < m->values; k++) ves_json_number(json, NULL, m->error[k]);
+    ves_json_end(json, ']');
+    ves_json_array(json, "parity");
+    for (int k = 0; k < m->values; k++) ves_json_number(json, NULL, m->parity[k]);
+    ves_json_end(json, ']');
+    ves_json_text(json, "verdict", ves_firmness_text(m->firmness));
+    ves_json_end(json, '}');
+}
+
+static void own_json(const ves_problem *p, const ves_stability *s, ves_json *json)
+{
+    ves_json_object(json, "variables");
+    ves_json_array(json, "values");
+    for (int k = 0; k < s->values; k++) ves_json_number(json, NULL, s->own[k]);
+    ves_json_end(json, ']');
+    ves_json_array(json, "errors");
+    for (int k = 0; k < s->values; k++) ves_json_number(json, NULL, s->own_error[k]);
+    ves_json_end(json, ']');
+    ves_json_array(json, "along");
+    for (int k = 0; k < s->values; k++) ves_json_text(json, NULL, p->variable[s->own_along[k]].name);
+    ves_json_end(json, ']');
+    ves_json_integer(json, "flat", s->flat);
+    ves_json_end(json, '}');
+}
+
+static void json_print(const ves_problem *p, const ves_stability *s)
+{
+    ves_json json = {.out = stdout};
+    ves_json_object(&json, NULL);
+    ves_json_text(&json, "verdict", ves_firmness_text(s->firmness));
+    ves_json_integer(&json, "softest", s->mode[s->softest].n);
+    ves_json_array(&json, "modes");
+    for (int k = 0; k < s->modes; k++) mode_json(&s->mode[k], &json);
+    ves_json_end(&json, ']');
+    ves_json_number(&json, "objective", s->objective);
+    ves_json_number(&json, "slope", s->slope);
+    ves_json_number(&json, "stationary", s->stationary);
+    ves_json_number(&json, "moved", s->moved);
+    ves_json_number(&json, "R0", s->radius);
+    own_json(p, s, &json);
+    ves_json_integer(&json, "functions", s->functions);
+    ves_json_array(&json, "quadrature");
+    for (int k = 0; k < 2; k++) ves_json_integer(&json, NULL, s->quadrature[k]);
+    ves_json_end(&json, ']');
+    ves_json_end(&json, '}');
+}
+
+/* --- the screen --- */
+
+static const char *parity_text(double parity)
+{
+    static const double PURE = 0.99;
+    return parity > PURE ? "symmetric" : parity < -PURE ? "antisymmetric" : "";
+}
+
+static void table_print(const ves_stability *s, FILE *out)
+{
+    app_table t = {.align = "rrlrrrl"};
+    app_table_cell(&t, "n");
+    app_table_cell(&t, "lowest");
+    app_table_cell(&t, "%s", "");
+    app_table_cell(&t, "+-");
+    app_table_cell(&t, "second");
+    app_table_cell(&t, "third");
+    app_table_end(&t);
+    for (int k = 0; k < s->modes; k++) {
+        const ves_firmness_mode *m = &s->mode[k];
+        app_table_cell(&t, "%d", m->n);
+        app_table_cell(&t, "%.5g", m->value[0]);
+        app_table_cell(&t, "%s", parity_text(m->parity[0]));
+        app_table_cell(&t, "%.1g", m->error[0]);
+        for (int j = 1; j < 3; j++)
+            if (j < m->values)
+                app_table_cell(&t, "%.5g", m->value[j]);
+            else
+                app_table_cell(&t, " ");
+        app_table_cell(&t, "%s", ves_firmness_text(m->firmness));
+        app_table_end(&t);
+    }
+    app_table_print(&t, out);
+}
+
+/* What the variables of the file see of it. */
+static void own_print(const ves_problem *p, const ves_stability *s, FILE *out)
+{
+    fprintf(out, "  variables   ");
+    for (int k = 0; k < s->values; k++)
+        fprintf(out, "%s%.4g (most of it %s)", k ? ", " : "", s->own[k], p->variable[s->own_along[k]].name);
+    if (s->flat)
+        fprintf(out, "%s%d direction%s that change%s nothing", s->values ? "; " : "", s->flat,
+                s->flat > 1 ? "s" : "", s->flat > 1 ? "" : "s");
+    fputs("\n", out);
+}
+
+static void screen(const ves_problem *p, const ves_stability *s, FILE *out)
+{
+    const ves_firmness_mode *soft = &s->mode[s->softest];
+    fprintf(out, "%s  %s\n\n", p->name, p->title);
+    table_print(s, out);
+    fprintf(out, "\n");
+    if (s->relaxed)
+        fprintf(out, "  stationary  %.9g; the design lies %.2g above it, a displacement of %.2g R0 away\n",
+                s->stationary, s->objective - s->stationary, s->moved);
+    else
+        fprintf(out,
+                "  stationary  no stationary shape near the design, whose slope is %.2g: eigenvalues at the "
+                "design\n",
+                s->slope);
+    fprintf(out, "  functions   %d of the arc length, %d x %d nodes a patch\n", s->functions,
+            s->quadrature[0], s->quadrature[1]);
+    if (s->values || s->flat) own_print(p, s, out);
+    fprintf(out, "  verdict     %s: the softest mode is n = %d, with %.4g +- %.1g\n",
+            ves_firmness_text(s->firmness), soft->n, soft->value[0], soft->error[0]);
+}
+
+int app_stability(app *a)
+{
+    ves_opened opened;
+    ves_stability found;
+    int code;
+    if (!app_open(a, &opened, &code)) return code;
+    const ves_stability_options options = {
+        .counted = a->options.counted, .modes = a->options.modes, .functions = a->options.functions};
+    ves_status status = ves_stability_find(opened.problem, &options, &found, a->diag);
+    app_say(a);
+    code = app_code(status);
+    if (status == VES_OK) {
+        if (a->options.json)
+            json_print(opened.problem, &found);
+        else
+            screen(opened.problem, &found, stdout);
+        code = found.firmness == VES_UNSTABLE ? APP_UNMET : APP_DONE;
+    }
+    ves_study_close(&opened);
+    return code;
+}
