@@ -227,7 +227,9 @@ static void stretch(const plan_revolution *s)
     for (int j = 1; j < STRETCH; j++)
         wave[j] = 2 * (1 - (double)j / STRETCH) * density_wave(s, mean, j) / all;
     for (int k = 0; k < s->patches; k++) {
-        const plan_meridian *m = &s->meridian[k];
+        plan_meridian *m = &s->meridian[k];
+        const double end = m->end;
+        for (int j = 1; j < STRETCH; j++) m->end += wave[j] * sin(j * end) / j;
         for (int i = 0; i < m->nu; i++) {
             double x = m->S[0][i], by = 1, twice = 0;
             for (int j = 1; j < STRETCH; j++) {
@@ -321,7 +323,9 @@ static double least_share(const plan_revolution *s)
 
 static bool field_find(const plan_revolution *s)
 {
-    for (int waves = WAVES_LEAST; waves <= WAVES_MOST; waves *= 2) {
+    int nodes = 0;
+    for (int k = 0; k < s->patches; k++) nodes += s->meridian[k].nu;
+    for (int waves = WAVES_LEAST; waves <= WAVES_MOST && 2 * waves <= nodes; waves *= 2) {
         field_make(s, waves);
         if (least_share(s) >= UPRIGHT) return true;
     }
@@ -341,11 +345,15 @@ static ves_status meridians_make(ves_plan *plan, ves_arena *arena, const int *ro
         VES_TRY(meridian_make(plan, s, first[k] == 1, m, &off));
         for (int i = 0; i < m->nu; i++) m->S[0][i] += s->length;
         s->length += m->length;
+        m->end = s->length;
         *found = *found && off <= ROUND * m->length;
     }
-    for (int k = 0; k < s->patches; k++)
+    for (int k = 0; k < s->patches; k++) {
+        plan_meridian *m = &s->meridian[k];
         for (int d = 0; d < 3; d++)
-            for (int i = 0; i < s->meridian[k].nu; i++) s->meridian[k].S[d][i] *= VES_PI / s->length;
+            for (int i = 0; i < m->nu; i++) m->S[d][i] *= VES_PI / s->length;
+        m->end *= VES_PI / s->length;
+    }
     return VES_OK;
 }
 

@@ -8,6 +8,7 @@
 /* One patch, at the nodes along u of its site. Index of arrays of arrays: the derivative along u. */
 typedef struct plan_meridian {
     int patch, nu;
+    double end;          /* S where the next patch begins */
     double length;       /* m */
     double *weight;      /* [nu] du, times 2 pi around */
     double *bend;        /* curvature of the meridian, its size, 1/m */

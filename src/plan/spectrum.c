@@ -33,7 +33,7 @@ static ves_status cholesky(plan_spectrum *s, int stride, const double *M)
         for (int j = 0; j <= i; j++) {
             double sum = M[i * stride + j];
             for (int k = 0; k < j; k++) sum -= s->root[i * n + k] * s->root[j * n + k];
-            if (i == j && !(sum > 0)) return VES_SINGULAR;
+            if (i == j && !(sum > 0)) return VES_NO_NUMBER;
             s->root[i * n + j] = i == j ? sqrt(sum) : sum / s->root[j * n + j];
         }
     return VES_OK;

@@ -22,7 +22,7 @@ typedef struct plan_spectrum {
 
 ves_status ves_spectrum_create(int n, int rows, ves_arena *arena, plan_spectrum *s);
 
-/* First the metric: M [n][n] (its lower triangle) and row [rows][...], rows `stride` apart. VES_SINGULAR: M is not
+/* First the metric: M [n][n] (its lower triangle) and row [rows][...], rows `stride` apart. VES_NO_NUMBER: M is not
  * positive. Then the values of H, of which half the sum with its transpose is taken. */
 ves_status ves_spectrum_metric(plan_spectrum *s, int n, int stride, const double *M, int rows,
                                const double *row);

@@ -221,10 +221,10 @@ static double crooked(const work *w, const double *c)
     return ves_basis_size(n, t);
 }
 
-static double parity(int n, const double *c)
+static double parity(int smooth, const double *c)
 {
     double sum[2] = {0};
-    for (int k = 0; k < n; k++) sum[k % 2] += c[k] * c[k];
+    for (int k = 0; k < smooth; k++) sum[k % 2] += c[k] * c[k];
     return (sum[0] - sum[1]) / (sum[0] + sum[1]);
 }
 
@@ -240,7 +240,7 @@ static void mode_tell(work *w, ves_firmness_mode *mode)
         ves_spectrum_colour(&w->spectrum, w->y);
         mode->value[k] = w->spectrum.value[k] * unit;
         mode->error[k] = crooked(w, w->y) * unit;
-        mode->parity[k] = parity(n, w->y);
+        mode->parity[k] = parity(n - v->bends, w->y);
     }
 }
 

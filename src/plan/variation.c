@@ -29,6 +29,13 @@ static double share(int l, int n)
     return sqrt((double)(l * l - n * n) / (4. * l * l - 1));
 }
 
+/* The last functions, one for each joint, have a jump of the second derivative there: x |x|, x = cos S - cos S of the
+ * joint. They take away what the curvature of a design may jump by, which no sum of the smooth ones does. */
+static void bend_at(double x, double q[3])
+{
+    q[0] = x * fabs(x), q[1] = 2 * fabs(x), q[2] = x < 0 ? -2 : 2;
+}
+
 static void functions_at(const plan_variation *v, int which, int patch, int i)
 {
     const int n = v->n * which;
@@ -39,11 +46,14 @@ static void functions_at(const plan_variation *v, int which, int patch, int i)
     const double s0 = pow(y, n), s1 = n ? n * pow(y, n - 1) * x : 0;
     const double s2 = (n > 1 ? n * (n - 1) * pow(y, n - 2) * x * x : 0) - n * s0;
     for (int k = 0; k < v->functions; k++) {
+        const int bend = k - (v->functions - v->bends);
+        if (bend >= 0) bend_at(x - cos(v->shape.meridian[bend].end), q);
         const double at = s0 * q[0], by = s1 * q[0] - s0 * y * q[1];
         const double twice = s2 * q[0] - 2 * s1 * y * q[1] + s0 * (y * y * q[2] - x * q[1]);
         function_at(v, which, patch, 0, k)[i] = at;
         function_at(v, which, patch, 1, k)[i] = by * p;
         function_at(v, which, patch, 2, k)[i] = twice * p * p + by * pp;
+        if (bend >= 0) continue;
         const double up = share(n + k + 1, n), down = k ? share(n + k, n) : 0;
         const double next[3] = {(x * q[0] - down * before[0]) / up, (q[0] + x * q[1] - down * before[1]) / up,
                                 (2 * q[1] + x * q[2] - down * before[2]) / up};
@@ -126,11 +136,12 @@ static ves_status measures_look(const ves_plan *plan, ves_diag *diag)
         if (!plan->runs[PROGRAM_JUDGE][m]) continue;
         for (int k = 0; k < in->input.samples; k++) elsewhere = elsewhere || in->site[k] >= p->patches;
         if (!p->measure[m].measure->gradient || elsewhere)
-            return ves_diag_add(diag, VES_ERROR, VES_ABSENT, p->measure[m].mark,
-                                "%s: no stability with the measure \"%s\" (%s), which %s", p->name,
-                                p->measure[m].name, p->measure[m].measure->name,
-                                elsewhere ? "reads curves or places, and these are not displaced"
-                                          : "has no gradient");
+            return ves_diag_add(
+                diag, VES_ERROR, VES_ABSENT, p->measure[m].mark,
+                "%s: no stability with the measure \"%s\" (%s), which %s", p->name, p->measure[m].name,
+                p->measure[m].measure->name,
+                elsewhere ? "reads more than surfaces: curves, places or caps, which are not displaced"
+                          : "has no gradient");
     }
     return VES_OK;
 }
@@ -188,12 +199,14 @@ static double condition_value(const plan_variation *v, const plan_condition *c)
     return c->turn * (ves_plan_formula(plan, c->left) - ves_plan_formula(plan, c->right));
 }
 
-ves_status ves_variation_create(ves_plan *plan, int functions, ves_arena *arena, plan_variation *v,
+ves_status ves_variation_create(ves_plan *plan, int smooth, ves_arena *arena, plan_variation *v,
                                 ves_diag *diag)
 {
-    *v = (plan_variation){.plan = plan, .functions = functions, .sign = plan->problem->maximize ? -1 : 1};
-    VES_TRY(measures_look(plan, diag));
+    *v = (plan_variation){.plan = plan, .functions = smooth, .sign = plan->problem->maximize ? -1 : 1};
     VES_TRY(ves_revolution_find(plan, arena, &v->shape, diag));
+    VES_TRY(measures_look(plan, diag));
+    v->bends = v->shape.patches - 1;
+    v->functions += v->bends;
     if (displacements_make(v, arena) != VES_OK || conditions_make(v, arena) != VES_OK)
         return ves_diag_fail(diag, VES_MEMORY);
     plan->frozen = true;
@@ -273,7 +286,7 @@ ves_status ves_variation_hessian(plan_variation *v, double *H)
     for (int k = 0; k < v->conditions; k++) v->against[k] = -v->condition[k].multiplier;
     memset(v->wave, 0, sizeof(double) * (size_t)n);
     for (int f = 0; f < n; f++) {
-        const double l = v->n + f, step = STEP * v->unit / (1 + l * l / 8);
+        const double l = v->n + (f < n - v->bends ? f : 16), step = STEP * v->unit / (1 + l * l / 8);
         for (int e = 0; e < 2; e++) {
             v->wave[f] = e ? -step : step;
             VES_TRY(ves_variation_value(v, &ignored, v->missed[0]));

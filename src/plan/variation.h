@@ -23,8 +23,8 @@ typedef struct plan_variation {
     plan_revolution shape;
     plan_displacement *displacement; /* [patches] as in shape.meridian */
     plan_metric *metric;             /* [patches] of the surface that `even` makes */
-    int functions;
-    double *basis[2]; /* [patch][derivative][function][nu], of n = 0 and of the n at hand */
+    int functions, bends;            /* of them the last, see variation.c */
+    double *basis[2];                /* [patch][derivative][function][nu], of n = 0 and of the n at hand */
     int n;
     double unit;  /* m: sqrt(area / 4 pi) at the design */
     double *even; /* [functions] what the surface is displaced by, m */
@@ -36,7 +36,7 @@ typedef struct plan_variation {
 } plan_variation;
 
 /* At the start design of the problem, whose plan is ves_plan_loose's and was evaluated there. */
-ves_status ves_variation_create(ves_plan *plan, int functions, ves_arena *arena, plan_variation *v,
+ves_status ves_variation_create(ves_plan *plan, int smooth, ves_arena *arena, plan_variation *v,
                                 ves_diag *diag);
 
 /* Takes azimuthal mode n for what follows. */

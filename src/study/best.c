@@ -94,6 +94,8 @@ static ves_status point_read(const char *sweep, long point, ves_arena *arena, ve
     const ves_node *line = line_find(text, point, arena);
     const char *word = line ? ves_json_word(line, "status") : NULL;
     best->variables = word && !strcmp(word, "ok") ? ves_node_find(line, "variables") : NULL;
+    best->branch = line ? ves_json_word(line, "branch") : NULL;
+    best->parameters = line ? ves_node_find(line, "parameters") : NULL;
     if (is_map(best->variables)) return VES_OK;
     return ves_diag_add(diag, VES_ERROR, VES_RANGE, NOWHERE,
                         word ? "point %ld of the sweep \"%s\" is lost: it is no start"
@@ -103,8 +105,7 @@ static ves_status point_read(const char *sweep, long point, ves_arena *arena, ve
 
 /* --- what --start names --- */
 
-/* FOLDER:NUMBER, in parts; false: it is no such thing. */
-static bool split(const char *start, ves_arena *arena, char **folder, long *number)
+bool ves_best_split(const char *start, ves_arena *arena, char **folder, long *number)
 {
     const char *colon = strrchr(start, ':');
     size_t digits = colon ? strspn(colon + 1, "0123456789") : 0;
@@ -119,7 +120,7 @@ ves_status ves_best_find(const char *start, ves_arena *arena, ves_best *best, ve
     char *folder = NULL;
     long number = 0;
     *best = (ves_best){.run = start};
-    if (!split(start, arena, &folder, &number)) {
+    if (!ves_best_split(start, arena, &folder, &number)) {
         if (!has(start, "sweep.json", arena)) return ves_best_read(start, arena, best, diag);
         return ves_diag_add(
             diag, VES_ERROR, VES_USAGE, NOWHERE,

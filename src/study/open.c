@@ -107,11 +107,40 @@ static ves_status missing_tell(const ves_best *b, const ves_problem *problem, ve
                         b->run, list);
 }
 
+/* What a point of a sweep is asked with: its branch's settings, then its parameters. */
+static ves_status point_apply(const ves_best *b, const ves_problem *problem, ves_arena *arena,
+                              ves_override *override, int *count, ves_diag *diag)
+{
+    const ves_sweep_def *sweep = problem->sweep;
+    for (int k = 0; b->branch && sweep && k < sweep->branches; k++)
+        for (int j = 0; !strcmp(sweep->branch[k].name, b->branch) && j < sweep->branch[k].sets; j++)
+            override[(*count)++] = sweep->branch[k].set[j];
+    for (int k = 0; b->parameters && k < problem->parameters; k++) {
+        const ves_parameter *p = &problem->parameter[k];
+        const ves_node *number = ves_node_find(b->parameters, p->name);
+        if (!number || !is_number(number)) continue;
+        ves_override *o = &override[(*count)++];
+        *o = (ves_override){p->name,
+                            ves_study_quantity(number->text, ves_formula_dim(p->formula), &p->shown, arena)};
+        if (!o->value) return ves_diag_fail(diag, VES_MEMORY);
+    }
+    return VES_OK;
+}
+
+static int overrides_most(const ves_problem *problem)
+{
+    int sets = 0;
+    for (int k = 0; problem->sweep && k < problem->sweep->branches; k++)
+        sets += problem->sweep->branch[k].sets;
+    return sets + problem->parameters + problem->variables;
+}
+
 /* Appends one override for each variable of the problem that the run has. */
 static ves_status best_apply(const ves_best *b, const ves_problem *problem, ves_arena *arena,
                              ves_override *override, int *count, ves_diag *diag)
 {
     *count = 0;
+    VES_TRY(point_apply(b, problem, arena, override, count, diag));
     VES_TRY(missing_tell(b, problem, arena, diag));
     for (int k = 0; k < problem->variables; k++) {
         const ves_variable *v = &problem->variable[k];
@@ -146,7 +175,8 @@ static ves_status read_at(const source *from, const ves_best *b, const ves_read_
     ves_diag_destroy(quiet);
     if (status != VES_OK) return read(from, options, &opened->problem, diag);
     int count = 0;
-    ves_override *all = ves_arena_take(arena, (size_t)(first->variables + options->overrides), sizeof *all);
+    ves_override *all =
+        ves_arena_take(arena, (size_t)(overrides_most(first) + options->overrides), sizeof *all);
     status = all ? best_apply(b, first, arena, all, &count, diag) : ves_diag_fail(diag, VES_MEMORY);
     if (status == VES_OK) {
         ves_read_options whole = *options;
@@ -192,6 +222,20 @@ static ves_status name_run(ves_opened *opened, ves_diag *diag)
     if (p->title != p->name) return VES_OK;
     p->title = ves_arena_text(&p->arena, opened->name, strlen(opened->name));
     return p->title ? VES_OK : ves_diag_fail(diag, VES_MEMORY);
+}
+
+/* FOLDER:NUMBER: an optimum of a run, a point of a sweep, in its problem. */
+static ves_status open_part(const char *path, const char *folder, const ves_open_options *options,
+                            ves_opened *opened, ves_diag *diag)
+{
+    ves_best own = {0};
+    const source from = {.path = ves_folder_path(folder, "problem.yaml", &opened->arena)};
+    opened->name = last_part(folder, &opened->arena);
+    if (!from.path || !opened->name) return ves_diag_fail(diag, VES_MEMORY);
+    VES_TRY(ves_best_find(path, &opened->arena, &own, diag));
+    ves_status status = read_at(&from, &own, &options->read, opened, diag);
+    if (status == VES_NAME) plugins_tell(&own, folder, &opened->arena, diag);
+    return status == VES_OK ? name_run(opened, diag) : status;
 }
 
 static ves_status open_run(const char *path, const ves_open_options *options, ves_opened *opened,
@@ -241,8 +285,16 @@ ves_status ves_study_open(const char *path, const ves_open_options *options, ves
                           ves_diag *diag)
 {
     *opened = (ves_opened){0};
-    ves_status status =
-        ves_folder_is(path) ? open_run(path, options, opened, diag) : open_file(path, options, opened, diag);
+    char *folder;
+    long number;
+    ves_status status;
+    if (ves_folder_is(path))
+        status = open_run(path, options, opened, diag);
+    else if (!options->start && ves_best_split(path, &opened->arena, &folder, &number) &&
+             ves_folder_is(folder))
+        status = open_part(path, folder, options, opened, diag);
+    else
+        status = open_file(path, options, opened, diag);
     if (status == VES_OK) return status;
     ves_study_close(opened);
     return ves_diag_errors(diag)

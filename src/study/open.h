@@ -1,5 +1,5 @@
 /* Opening what a user names: a problem file (-: stdin), or a run folder, which is its problem at the best
- * design. */
+ * design; RUN:K is optimum K of it, SWEEP:N point N of a sweep, with its parameters. */
 #ifndef VES_STUDY_OPEN_H
 #define VES_STUDY_OPEN_H
 
