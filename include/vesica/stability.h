@@ -27,7 +27,12 @@
 extern "C" {
 #endif
 
-enum { VES_STABILITY_MODES = 12, VES_STABILITY_VALUES = 3, VES_STABILITY_FUNCTIONS = 96 };
+enum {
+    VES_STABILITY_MODES = 12,
+    VES_STABILITY_VALUES = 3,
+    VES_STABILITY_FUNCTIONS = 96,
+    VES_STABILITY_HOLDS = 8
+};
 
 /* All zeros: modes 0 .. 4, and functions as they are needed. */
 typedef struct ves_stability_options {
@@ -53,6 +58,8 @@ typedef struct ves_stability {
     int functions, quadrature[2];
     double radius;    /* R0 */
     double objective; /* of the design, in the sign of the file */
+    int held; /* what a displacement may not change: the measure of scale:, solve, constraints met with equality */
+    const char *holds[VES_STABILITY_HOLDS]; /* as written; the problem's. The first of them */
     double
         slope; /* how far the design is from stationary: the largest it falls by, per e (see above), at first order */
     bool relaxed;      /* the stationary shape was found: eigenvalues are its own, else those at the design */

@@ -49,6 +49,9 @@ static void json_print(const ves_problem *p, const ves_stability *s)
     ves_json_array(&json, "modes");
     for (int k = 0; k < s->modes; k++) mode_json(&s->mode[k], &json);
     ves_json_end(&json, ']');
+    ves_json_array(&json, "held");
+    for (int k = 0; k < s->held && k < VES_STABILITY_HOLDS; k++) ves_json_text(&json, NULL, s->holds[k]);
+    ves_json_end(&json, ']');
     ves_json_number(&json, "objective", s->objective);
     ves_json_number(&json, "slope", s->slope);
     ves_json_number(&json, "stationary", s->stationary);
@@ -123,8 +126,11 @@ static void screen(const ves_problem *p, const ves_stability *s, FILE *out)
                 "  stationary  no stationary shape near the design, whose slope is %.2g: eigenvalues at the "
                 "design\n",
                 s->slope);
-    fprintf(out, "  functions   %d of the arc length, %d x %d nodes a patch\n", s->functions,
-            s->quadrature[0], s->quadrature[1]);
+    if (s->held) fprintf(out, "  held        ");
+    for (int k = 0; k < s->held && k < VES_STABILITY_HOLDS; k++)
+        fprintf(out, "%s%s", s->holds[k], k + 1 < s->held ? ", " : "\n");
+    fprintf(out, "  functions   %d of the meridian, %d x %d nodes a patch\n", s->functions, s->quadrature[0],
+            s->quadrature[1]);
     if (s->values || s->flat) own_print(p, s, out);
     fprintf(out, "  verdict     %s: the softest mode is n = %d, with %.4g +- %.1g\n",
             ves_firmness_text(s->firmness), soft->n, soft->value[0], soft->error[0]);

@@ -258,7 +258,7 @@ static const option table[] = {
     {"patch", "NAME", "which patch (needed when there are several)", take_patch},
     {"points", "FILE", "CSV of u (0 to 1), v (0 to 2 pi), whatever `domain` says; - is stdin", take_points},
     {"modes", "N", "azimuthal modes n = 0 ... N (4, unless said; 12 at most)", take_modes},
-    {"functions", "N", "of the arc length, that displacements are made of (32, unless said)", take_functions},
+    {"functions", "N", "of the meridian, that displacements are made of (6 to 96; chosen, unless said)", take_functions},
     {"spine", "N", "N points of the spine, the mean over v, from end to end, with its first two derivatives by u", take_spine},
     {"spines", NULL, "the spines of PDE patches too: drawn over the shape, or in files NAME-spines.vtp, .obj, .csv", take_spines},
     {"to", "FORMAT[,FORMAT]", "see vesica list formats; a journal: csv (unless said), jsonl", take_to},

@@ -299,6 +299,9 @@ static ves_status with_plan(ves_plan *plan, int modes, ves_stability *out, ves_d
         out->radius = w.v.unit;
         if (status == VES_OK) status = stationary_find(&w, out);
         if (status == VES_OK) status = modes_find(&w, modes, out);
+        out->held = w.v.conditions;
+        for (int k = 0; k < w.v.conditions && k < VES_STABILITY_HOLDS; k++)
+            out->holds[k] = w.v.condition[k].text;
         if (status < VES_OK) ves_diag_fail(diag, status);
         if (status > VES_OK) ves_plan_why(plan, status, "beside the design", diag);
     }

@@ -146,6 +146,22 @@ static ves_status measures_look(const ves_plan *plan, ves_diag *diag)
     return VES_OK;
 }
 
+/* What is read of them: an inequality that is not touched holds nothing. */
+static void runs_choose(plan_variation *v)
+{
+    ves_plan *plan = v->plan;
+    for (int m = 0; m < plan->problem->measures; m++) {
+        bool used = ves_formula_uses_argument(plan->problem->objective, m);
+        for (int k = 0; k < v->conditions; k++) {
+            const plan_condition *c = &v->condition[k];
+            used = used || c->measure == m ||
+                   (c->left &&
+                    (ves_formula_uses_argument(c->left, m) || ves_formula_uses_argument(c->right, m)));
+        }
+        plan->runs[PROGRAM_JUDGE][m] = used;
+    }
+}
+
 /* scale:, solve:, equalities, and the inequalities that are met with equality. */
 static ves_status conditions_make(plan_variation *v, ves_arena *arena)
 {
@@ -204,11 +220,12 @@ ves_status ves_variation_create(ves_plan *plan, int smooth, ves_arena *arena, pl
 {
     *v = (plan_variation){.plan = plan, .functions = smooth, .sign = plan->problem->maximize ? -1 : 1};
     VES_TRY(ves_revolution_find(plan, arena, &v->shape, diag));
-    VES_TRY(measures_look(plan, diag));
     v->bends = v->shape.patches - 1;
     v->functions += v->bends;
     if (displacements_make(v, arena) != VES_OK || conditions_make(v, arena) != VES_OK)
         return ves_diag_fail(diag, VES_MEMORY);
+    runs_choose(v);
+    VES_TRY(measures_look(plan, diag));
     plan->frozen = true;
     for (int k = 0; k < v->conditions; k++) v->condition[k].hold = condition_value(v, &v->condition[k]);
     for (int k = 0; k < v->shape.patches; k++)

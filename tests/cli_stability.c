@@ -1,0 +1,87 @@
+/* vesica stability, as a user meets it. */
+#include <criterion/criterion.h>
+
+#include "program.h"
+
+#define BALL(formula)                                                                                        \
+    "vesica: 1\nparameters: {c: 1}\npatches:\n  ball: {surface: {formula: " formula                          \
+    "}, domain: {u: [0, pi]}}\n"                                                                             \
+    "shape: {closed: true}\nquadrature: {u: 16, v: 8}\nmeasures: {E: {canham: {reduced_c0: c}}}\n"
+#define ROUND BALL("[\"sin(u)*cos(v)\", \"sin(u)*sin(v)\", \"cos(u)\"]")
+
+static const char sphere[] = ROUND "minimize: E/(8*pi)\nscale: {equation: area == 4*pi}\n";
+static const char oval[] = BALL("[\"1.2*sin(u)*cos(v)\", \"sin(u)*sin(v)\", \"cos(u)\"]") "minimize: E\n";
+static const char idle[] = ROUND "constraints: [area <= 20]\n";
+static const char pole[] =
+    "vesica: 1\npatches:\n  ring: {surface: {formula: [\"(2+cos(2*pi*u))*cos(v)\", "
+    "\"(2+cos(2*pi*u))*sin(v)\", \"sin(2*pi*u)\"]}}\nquadrature: {u: 16, v: 8}\nminimize: area\n";
+
+/* A vesicle of one parameter, by two patches of order 4. */
+static const char drop[] =
+    "vesica: 1\nparameters: {nu: 0.95}\nvariables: {h: [0.3, 0.8, 3], m: [0.3, 1.4, 3], d: [0.3, 1.4, 3]}\n"
+    "curves:\n  north: {point: [0, 0, h]}\n  south: {point: [0, 0, -h]}\n  rim: {circle: {radius: 1}}\n"
+    "  out: {formula: [\"cos(v)\", \"sin(v)\", \"0\"]}\n  back: {like: out, apply: [{dilate: -1}]}\n"
+    "  down: {point: [0, 0, -1]}\npatches:\n"
+    "  top: {operator: {power: 2, a: 1}, conditions: [{u: 0, position: north}, {u: 0, derivative: 1, field: "
+    "out, "
+    "scale: m}, {u: 1, position: rim}, {u: 1, derivative: 1, field: down, scale: d}]}\n"
+    "  bottom: {operator: {power: 2, a: 1}, conditions: [{u: 0, position: rim}, {u: 0, derivative: 1, field: "
+    "down, "
+    "scale: d}, {u: 1, position: south}, {u: 1, derivative: 1, field: back, scale: m}]}\n"
+    "shape: {closed: true}\nquadrature: {u: 24, v: 8}\nscale: {equation: area == 4*pi}\n"
+    "measures: {E: {canham: {}}}\nminimize: E/(8*pi)\nconstraints: [reduced_volume == nu]\n"
+    "search: [{polish: {}}]\n";
+
+Test(cli_stability, what_it_prints_and_its_exit_code)
+{
+    root_make();
+    write_file("sphere.yaml", sphere);
+    expect(vesica(NULL, "stability sphere.yaml"), 0, "softest mode is n = ", NULL, "stable");
+    expect(vesica(NULL, "stability sphere.yaml"), 0, "held        area", NULL, "stable");
+    expect(vesica(NULL, "stability sphere.yaml --set c=6.5 --modes 2"), 1, "unstable", NULL, "unstable");
+    expect(vesica(NULL, "stability sphere.yaml --set c=6.5 --json --modes 0"), 1, "\"verdict\": \"unstable\"",
+           NULL, "json");
+    expect(vesica(NULL, "stability sphere.yaml --modes 13"), 2, NULL, "--modes needs", "13");
+    expect(vesica(NULL, "stability sphere.yaml --functions 5"), 2, NULL, "--functions needs", "5");
+    expect(vesica(NULL, "stability"), 2, NULL, "something is missing", "nothing");
+    root_remove();
+}
+
+Test(cli_stability, what_it_refuses)
+{
+    root_make();
+    write_file("oval.yaml", oval);
+    write_file("idle.yaml", idle);
+    write_file("pole.yaml", pole);
+    expect(vesica(NULL, "stability oval.yaml"), 2, NULL, "is not round", "oval");
+    expect(vesica(NULL, "stability idle.yaml"), 2, NULL, "no objective", "idle");
+    expect(vesica(NULL, "stability pole.yaml"), 2, NULL, "has no pole", "pole");
+    expect(vesica(NULL, "stability " PROBLEMS "bottle.yaml"), 2, NULL, "has a crease", "bottle");
+    write_file("far.yaml", ROUND "minimize: E\nconstraints: [max_curvature <= 9]\n");
+    expect(vesica(NULL, "stability far.yaml"), 0, NULL, NULL, "it does not touch");
+    write_file("near.yaml", ROUND "minimize: E + max_curvature\n");
+    expect(vesica(NULL, "stability near.yaml"), 2, NULL, "reads more than surfaces", "near");
+    root_remove();
+}
+
+Test(cli_stability, runs_their_optima_and_points_of_sweeps)
+{
+    root_make();
+    write_file("drop.yaml", drop);
+    expect(vesica(NULL, "run drop.yaml --out r --progress none"), 0, NULL, NULL, "run");
+    outcome whole = vesica(NULL, "stability r --modes 2"), part = vesica(NULL, "stability r:1 --modes 2");
+    cr_expect(whole.code == 1 && strcmp(whole.out, part.out) == 0, "%s%s\n%s%s", whole.out, whole.err,
+              part.out, part.err); /* an oblate of 0.95 is unstable against n = 2 */
+    cr_expect(strstr(whole.out, "softest mode is n = 2") != NULL && strstr(whole.out, "variables  ") != NULL,
+              "%s", whole.out);
+    done(&whole), done(&part);
+    expect(vesica(NULL, "stability r:2"), 2, NULL, "has no optimum 2", "r:2");
+    expect(vesica(NULL, "sweep drop.yaml --over nu=0.95,0.96 --out s --progress none"), 0, NULL, NULL,
+           "sweep");
+    whole = vesica(NULL, "eval s:1"), part = vesica(NULL, "stability s:1 --modes 0");
+    cr_expect(whole.code == 0 && strstr(whole.out, "0.96") != NULL, "%s%s", whole.out, whole.err);
+    cr_expect(part.code == 0, "%s%s", part.out, part.err);
+    done(&whole), done(&part);
+    expect(vesica(NULL, "stability s:7"), 2, NULL, "there is no point 7", "s:7");
+    root_remove();
+}
