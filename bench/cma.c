@@ -7,8 +7,8 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/eigen.h"
 #include "search/cma.h"
-#include "search/eigen.h"
 
 enum { ROUNDS = 7, MOST = 40, POPULATION = 320 };
 

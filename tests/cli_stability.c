@@ -6,7 +6,7 @@
 #define BALL(formula)                                                                                        \
     "vesica: 1\nparameters: {c: 1}\npatches:\n  ball: {surface: {formula: " formula                          \
     "}, domain: {u: [0, pi]}}\n"                                                                             \
-    "shape: {closed: true}\nquadrature: {u: 16, v: 8}\nmeasures: {E: {canham: {reduced_c0: c}}}\n"
+    "shape: {closed: true}\nquadrature: {u: 16, v: 8}\nmeasures:\n  E: {canham: {reduced_c0: c}}\n"
 #define ROUND BALL("[\"sin(u)*cos(v)\", \"sin(u)*sin(v)\", \"cos(u)\"]")
 
 static const char sphere[] = ROUND "minimize: E/(8*pi)\nscale: {equation: area == 4*pi}\n";
@@ -61,6 +61,9 @@ Test(cli_stability, what_it_refuses)
     expect(vesica(NULL, "stability far.yaml"), 0, NULL, NULL, "it does not touch");
     write_file("near.yaml", ROUND "minimize: E + max_curvature\n");
     expect(vesica(NULL, "stability near.yaml"), 2, NULL, "reads more than surfaces", "near");
+    write_file("tilted.yaml", ROUND
+               "  W: {adhesion: {at: [0, 0, -1], normal: [1, 0, 1], w: 1, range: 1}}\nminimize: E + W\n");
+    expect(vesica(NULL, "stability tilted.yaml"), 2, NULL, "turned about its own axis", "tilted");
     root_remove();
 }
 

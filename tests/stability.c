@@ -83,6 +83,14 @@ static double bilayer_sphere(int l, double c)
     return willmore_of(l) + slope * L - lambda * (1 + L);
 }
 
+/* (E + trap integral x^2) with the area held, the trap's centre in the middle: where it stands is no longer free. Displaced,
+ * integral x^2 has 4 and 6 + l(l+1)/2; lambda is 2. */
+static double trapped_sphere(int l, double c)
+{
+    const double L = l * (l + 1) / 2.;
+    return willmore_of(l) + c * (6 + L - 2 * (1 + L));
+}
+
 static const struct sphere {
     const char *text;
     double (*second)(int l, double c);
@@ -101,6 +109,10 @@ static const struct sphere {
     {UNIT_SPHERE
      "measures: {E: {ade: {alpha: 1, m0: 1.8}}}\nminimize: E/(8*pi)\nscale: {equation: area == 4*pi}\n",
      bilayer_sphere, 1.8},
+    {UNIT_SPHERE
+     "measures: {E: {canham: {}}, T: {integral: \"x^2 + y^2 + z^2\"}}\nminimize: (E + 0.4*T)/(8*pi)\n"
+     "scale: {equation: area == 4*pi}\n",
+     trapped_sphere, 0.4},
 };
 
 /* Eigenvalues of n: l = n, n + 1, ..., but for the size (l = 0) and where it stands (l = 1). */
@@ -108,7 +120,7 @@ static void sphere_check(const struct sphere *s, const ves_stability *found)
 {
     for (int n = 0; n < found->modes; n++)
         for (int k = 0; k < found->mode[n].values; k++) {
-            const int l = (n < 2 ? 2 : n) + k;
+            const int first = s->second == trapped_sphere ? 1 : 2, l = (n < first ? first : n) + k;
             const double want = 2 * s->second(l, s->c) / (8 * PI), got = found->mode[n].value[k];
             cr_expect(fabs(got - want) < 1e-7 * fmax(1, fabs(want)), "%s\nn = %d, l = %d: %.10f, want %.10f",
                       s->text, n, l, got, want);

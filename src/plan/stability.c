@@ -288,12 +288,34 @@ static ves_status at_design(ves_plan *plan, ves_diag *diag)
     return status;
 }
 
+/* Modes of different n are strangers only where nothing changes when a shape is turned about the axis: looked at on one
+ * that is dented. */
+static ves_status spin(plan_variation *v, ves_diag *diag)
+{
+    static const double DENT = 0.01; /* of the radius */
+    bool all = true;
+    for (int n = 1; n <= 2 && all; n++) {
+        ves_variation_mode(v, n);
+        v->wave[0] = v->wave[1] = DENT * v->unit;
+        ves_status status = ves_variation_symmetric(v, PLAN_SPIN, &all);
+        if (status != VES_OK) return ves_diag_fail(diag, status);
+    }
+    ves_variation_mode(v, 0);
+    if (all) return VES_OK;
+    return ves_diag_add(
+        diag, VES_ERROR, VES_ABSENT, (ves_mark){0},
+        "%s: no stability where the objective or a constraint changes when the shape is turned "
+        "about its own axis",
+        v->plan->problem->name);
+}
+
 static ves_status with_plan(ves_plan *plan, int modes, ves_stability *out, ves_diag *diag)
 {
     ves_arena arena = {0};
     work w = {0};
     ves_status status = at_design(plan, diag);
     if (status == VES_OK) status = ves_variation_create(plan, out->functions, &arena, &w.v, diag);
+    if (status == VES_OK) status = spin(&w.v, diag);
     if (status == VES_OK) {
         status = work_create(&w, &arena);
         out->radius = w.v.unit;

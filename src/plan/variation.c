@@ -359,16 +359,18 @@ static void turn_about(const double axis[3], double angle, double turn[3][3])
         }
 }
 
+/* About the axis, about one across it, along either, or in size. */
 static plan_motion motion_of(const plan_variation *v, plan_symmetry which)
 {
     static const double SOME = 0.3;
     plan_motion m = {.turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    const double *frame = v->shape.frame[which == PLAN_LIFT ? 2 : 0];
+    const bool turns = which == PLAN_TILT || which == PLAN_SPIN;
+    const double *frame = v->shape.frame[which == PLAN_LIFT || which == PLAN_SPIN ? 2 : 0];
     for (int c = 0; c < 3 && (which == PLAN_LIFT || which == PLAN_SHIFT); c++)
         m.shift[c] = SOME * v->unit * frame[c];
-    if (which == PLAN_TILT) turn_about(frame, SOME, m.turn);
+    if (turns) turn_about(frame, SOME, m.turn);
     for (int c = 0; c < 3 && which == PLAN_SIZE; c++) m.turn[c][c] = 1 + SOME;
-    for (int c = 0; c < 3 && (which == PLAN_TILT || which == PLAN_SIZE); c++)
+    for (int c = 0; c < 3 && (turns || which == PLAN_SIZE); c++)
         for (int d = 0; d < 3; d++) m.shift[c] += ((c == d) - m.turn[c][d]) * v->shape.middle[d];
     return m;
 }

@@ -55,7 +55,14 @@ void ves_variation_mass(plan_variation *v, double *M);
 
 /* Motions of the whole, a change of size among them: do objective and conditions not see it? And the products of its
  * normal displacement with those of the functions. */
-typedef enum plan_symmetry { PLAN_LIFT, PLAN_SIZE, PLAN_SHIFT, PLAN_TILT, PLAN_SYMMETRIES } plan_symmetry;
+typedef enum plan_symmetry {
+    PLAN_LIFT,
+    PLAN_SIZE,
+    PLAN_SHIFT,
+    PLAN_TILT,
+    PLAN_SPIN,
+    PLAN_SYMMETRIES
+} plan_symmetry;
 ves_status ves_variation_symmetric(plan_variation *v, plan_symmetry which, bool *symmetric);
 void ves_variation_rigid(const plan_variation *v, plan_symmetry which, double *row);
 
