@@ -108,7 +108,7 @@ Test(cli_bench, shapes_are_measured_against_the_best_of_all)
                "budget: {per_dimension: 100}\nmethods: {auto: {search: auto}, cobyla: {nlopt: LN_COBYLA}}\n");
     expect(vesica(NULL, "bench s.yaml --out b"), 0, "can", NULL, "shapes");
     cr_expect(count_of("b/runs.jsonl", "\"end\":\"budget\"") == 4);
-    expect(vesica(NULL, "bench --resume b"), 0, "optima of can", "4 of 4 runs", "again");
+    expect(vesica(NULL, "bench --resume b"), 0, "distinct ends of can", "4 of 4 runs", "again");
     expect(vesica(NULL, "bench --resume b"), 0, "best of all runs, polished: ", NULL, "again");
     outcome o = vesica(NULL, "bench --resume b --json");
     json j = json_of(o.out);
@@ -267,7 +267,7 @@ Test(cli_bench, an_objective_of_a_plugin)
     cr_assert(system("cc -std=c17 -shared -fPIC -I" VESICA_SOURCE "/include -o tower.so " VESICA_SOURCE
                      "/examples/objective/tower.c -lm && cp " VESICA_SOURCE
                      "/examples/objective/tower.yaml .") == 0);
-    expect(vesica(NULL, "bench tower.yaml --out one --jobs 1"), 0, "optima of tower", NULL, "plugin");
+    expect(vesica(NULL, "bench tower.yaml --out one --jobs 1"), 0, "distinct ends of tower", NULL, "plugin");
     expect(vesica(NULL, "bench tower.yaml --out two --jobs 2"), 0, "best of all runs", NULL, "plugin");
     same_file("one/runs.jsonl", "two/runs.jsonl");
     outcome o = vesica(NULL, "bench --resume one --json");

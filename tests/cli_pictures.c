@@ -104,7 +104,7 @@ Test(cli_pictures, a_benchmark_draws_the_optima_of_problem_files)
                "vesica: 1\nsuite: tubes\nproblems: [{file: " PROBLEMS "curvature-twist.yaml, name: a tube}, "
                "{function: sphere, n: 2}]\nseeds: 3\nbudget: {per_dimension: 50}\n"
                "methods: {auto: {search: auto}, slsqp: {nlopt: LD_SLSQP}, values: {nlopt: LN_SBPLX}}\n");
-    expect(vesica(NULL, "bench s.yaml --out one --jobs 1"), 0, "optima of a tube", NULL, "one");
+    expect(vesica(NULL, "bench s.yaml --out one --jobs 1"), 0, "distinct ends of a tube", NULL, "one");
     expect(vesica(NULL, "bench s.yaml --out two --jobs 2"), 0, NULL, NULL, "two");
     same_bytes("one/optima/a-tube.png", "two/optima/a-tube.png");
     cr_expect(access("one/optima/sphere-2.png", F_OK) != 0, "a function has no shape");
@@ -119,5 +119,25 @@ Test(cli_pictures, a_benchmark_draws_the_optima_of_problem_files)
                          "methods: {auto: {search: auto}}\n");
     expect(vesica(NULL, "bench f.yaml --out none"), 0, NULL, NULL, "functions");
     cr_expect(access("none/optima", F_OK) != 0);
+    root_remove();
+}
+
+/* Their names differ only in what files' names do not hold. */
+Test(cli_pictures, problems_do_not_share_a_picture)
+{
+    static const char *const folder[] = {"convergence", "optima"}, *const name[] = {"a-b", "a-b-3", "a-b-2"};
+    root_make();
+    write_file("s.yaml", "vesica: 1\nsuite: s\nproblems: [{file: " PROBLEMS "bottle.yaml, name: a b}, "
+                         "{file: " PROBLEMS "curvature-twist.yaml, name: a-b}, "
+                         "{file: " PROBLEMS "curvature.yaml, name: a-b-2}]\n"
+                         "seeds: 1\nbudget: {per_dimension: 30}\nmethods: {auto: {search: auto}}\n");
+    expect(vesica(NULL, "bench s.yaml --out one"), 0, "distinct ends of a-b-2", NULL, "three");
+    for (int f = 0; f < 2; f++)
+        for (int k = 0; k < 3; k++) {
+            char path[64];
+            snprintf(path, sizeof path, "one/%s/%s.png", folder[f], name[k]);
+            cr_expect(access(path, F_OK) == 0, "%s", path);
+        }
+    cr_expect(system("cmp -s one/optima/a-b.png one/optima/a-b-3.png") != 0, "each has its own");
     root_remove();
 }

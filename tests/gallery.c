@@ -9,6 +9,8 @@
 #include "output/gallery.h"
 #include "output/scene.h"
 #include "shapes.h"
+#include "study/folder.h"
+#include "study/gallery.h"
 
 enum { NOTES = 40 };
 
@@ -131,4 +133,40 @@ Test(gallery, charts_stand_below_each_other)
     }
     clean();
     check_nothing_left();
+}
+
+/* Of names that become one the first keeps it; a number never makes a name that somebody has, before or behind. */
+Test(gallery, names_of_pictures_are_all_different)
+{
+    enum { NAMES = 9, LONG = 400 };
+    static char far[2][LONG + 1];
+    for (int k = 0; k < 2; k++) memset(far[k], 'x', LONG), far[k][LONG - 1] = (char)('a' + k);
+    const char *name[NAMES] = {"a b", "a-b", "a-b-2", "a/b", "a-b-4", far[0], far[1], "a_b", "\xc3\xa9"},
+               *want[NAMES] = {"a-b", "a-b-3", "a-b-2", "a-b-5", "a-b-4", NULL, NULL, "a_b", "--"};
+    ves_arena arena = {0};
+    cr_assert(ves_folder_names(name, NAMES, &arena));
+    for (int k = 0; k < NAMES; k++) {
+        if (want[k]) cr_expect(strcmp(name[k], want[k]) == 0, "%s, want %s", name[k], want[k]);
+        for (int j = 0; j < k; j++) cr_expect(strcmp(name[k], name[j]) != 0, "two are %s", name[k]);
+        cr_expect(strlen(name[k]) < 160 && strchr(name[k], '/') == NULL, "%s", name[k]);
+    }
+    ves_arena_destroy(&arena);
+    check_nothing_left();
+}
+
+Test(gallery, values_have_units_and_all_their_digits)
+{
+    static const struct {
+        double value;
+        ves_shown shown;
+        const char *want;
+    } all[] = {{0.00858920619, {"cm^2", 1e-4}, "85.8920619 cm^2"},
+               {0.5, {"", 1}, "0.500000000"},
+               {-12.25, {"J", 1}, "-12.2500000 J"}};
+    ves_arena arena = {0};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        const char *text = ves_shown_value(all[k].value, &all[k].shown, &arena);
+        cr_expect(text && strcmp(text, all[k].want) == 0, "%s, want %s", text, all[k].want);
+    }
+    ves_arena_destroy(&arena);
 }

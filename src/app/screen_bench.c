@@ -282,7 +282,7 @@ static void optima(const ves_bench *b, FILE *out)
         bool first = !k || b->optimum[k - 1].problem != o->problem;
         const char *gap = "";
         ves_suite_place place = ves_suite_run(s, o->run);
-        if (first) fprintf(out, "  optima of %s\n", s->problem[o->problem].name);
+        if (first) fprintf(out, "  distinct ends of %s\n", s->problem[o->problem].name);
         fprintf(out, "    %.9g   first by %s, run %d; ", told(b, o->problem, o->value),
                 s->method[place.method].name, place.seed);
         for (int e = 0; e < s->methods; e++) {

@@ -173,13 +173,17 @@ static ves_status testbeds_open(bench *b)
 {
     ves_suite *suite = b->shown.suite;
     ves_bench_problem *facts = ves_arena_take(&b->arena, (size_t)suite->problems, sizeof *facts);
+    const char **name = ves_arena_take(&b->arena, (size_t)suite->problems, sizeof *name);
     b->testbed = ves_arena_take(&b->arena, (size_t)suite->problems, sizeof *b->testbed);
-    if (!b->testbed || !facts) return ves_diag_fail(b->diag, VES_MEMORY);
+    if (!b->testbed || !facts || !name) return ves_diag_fail(b->diag, VES_MEMORY);
+    for (int k = 0; k < suite->problems; k++) name[k] = suite->problem[k].name;
+    if (!ves_folder_names(name, suite->problems, &b->arena)) return ves_diag_fail(b->diag, VES_MEMORY);
     for (int k = 0; k < suite->problems; k++) {
         b->testbed[k] = (ves_testbed){
             .problem = &suite->problem[k], .hooks = b->hooks, .jobs = b->shown.jobs, .seed = suite->seed};
         VES_TRY(ves_testbed_open(&b->testbed[k], &b->arena, b->diag));
         facts[k] = b->testbed[k].facts;
+        facts[k].picture = name[k];
     }
     b->shown.problem = facts;
     return VES_OK;

@@ -37,13 +37,14 @@ typedef struct ves_bench_options {
 typedef struct ves_bench_problem {
     int n, m, equalities;
     const char *eliminated; /* "scale", "solve", "scale, solve": equations that every candidate meets; "" */
+    const char *picture;    /* its name in convergence/ and optima/: PICTURE.png */
     bool gradients;
     bool maximize;                    /* values here are those of the negative goal */
     double optimum;                   /* NAN: not known */
     double seconds, seconds_gradient; /* of one evaluation, measured; NAN: not */
 } ves_bench_problem;
 
-/* An optimum of a problem of files or plugins: where several runs ended. */
+/* A distinct end of a problem of files or plugins: where runs ended, converged or not. */
 typedef struct ves_bench_optimum {
     int problem, run; /* run: the best that ended there */
     double value;
@@ -60,7 +61,7 @@ struct ves_bench {
     double wall; /* s, of this process */
     ves_tally tally;
     int optima;
-    ves_bench_optimum *optimum; /* problem by problem, best first */
+    ves_bench_optimum *optimum; /* the distinct ends, problem by problem, best first */
 };
 
 /* Takes the suite over, also when it fails. *bench is not NULL where runs were made, also after

@@ -119,8 +119,8 @@ static ves_status convergence(charts *c, int problem)
                                       .high = band[e].high,
                                       .stairs = true};
     }
-    VES_TRY(ves_folder_picture(c->bench->folder, "convergence", s->problem[problem].name, &c->arena, &path,
-                               c->diag));
+    VES_TRY(ves_folder_picture(c->bench->folder, "convergence", c->bench->problem[problem].picture, &c->arena,
+                               &path, c->diag));
     double bottom = pow(10, floor(log10(fmin(low, high / 10)))), top = pow(10, ceil(log10(high)));
     const ves_chart chart = {
         .title = s->problem[problem].name,

@@ -117,14 +117,47 @@ char *ves_folder_path(const char *folder, const char *name, ves_arena *arena)
     return ves_arena_format(arena, length && folder[length - 1] == '/' ? "%s%s" : "%s/%s", folder, name);
 }
 
+static bool is_among(const char *const *list, int count, const char *text)
+{
+    for (int k = 0; k < count; k++)
+        if (list[k] && strcmp(list[k], text) == 0) return true;
+    return false;
+}
+
+/* Where it is one of those that are taken, with the first number that makes it another one. */
+static const char *numbered(const char *name, const char *const *taken, int count, ves_arena *arena)
+{
+    const char *other = name;
+    for (int k = 2; other && is_among(taken, count, other); k++)
+        other = ves_arena_format(arena, "%s-%d", name, k);
+    return other;
+}
+
+/* Two rounds: who is the first of a name keeps it, so that a number never takes a name that somebody has. */
+bool ves_folder_names(const char **name, int count, ves_arena *arena)
+{
+    const char **later = ves_arena_take(arena, (size_t)count, sizeof *later);
+    if (!later) return false;
+    for (int k = 0; k < count; k++) {
+        char *file = ves_arena_format(arena, "%.150s", name[k]);
+        if (!file) return false;
+        for (char *at = file; *at; at++)
+            if (!isalnum((unsigned char)*at) && !strchr("._-", *at)) *at = '-';
+        const bool taken = is_among(name, k, file);
+        later[k] = taken ? file : NULL;
+        name[k] = taken ? NULL : file;
+    }
+    for (int k = 0; k < count; k++)
+        if (later[k] && !(name[k] = numbered(later[k], name, count, arena))) return false;
+    return true;
+}
+
 ves_status ves_folder_picture(const char *folder, const char *kind, const char *name, ves_arena *arena,
                               char **path, ves_diag *diag)
 {
-    char *within = ves_folder_path(folder, kind, arena), *file = ves_arena_format(arena, "%.150s.png", name);
+    char *within = ves_folder_path(folder, kind, arena), *file = ves_arena_format(arena, "%s.png", name);
     *path = NULL;
     if (!within || !file) return ves_diag_fail(diag, VES_MEMORY);
-    for (char *at = file; *at; at++)
-        if (!isalnum((unsigned char)*at) && !strchr("._-", *at)) *at = '-';
     VES_TRY(ves_folder_open(within, arena, diag));
     *path = ves_folder_path(within, file, arena);
     return *path ? VES_OK : ves_diag_fail(diag, VES_MEMORY);

@@ -19,7 +19,12 @@ ves_status ves_folder_open(const char *path, ves_arena *arena, ves_diag *diag);
 /* FOLDER/NAME; NULL when out of memory. */
 char *ves_folder_path(const char *folder, const char *name, ves_arena *arena);
 
-/* FOLDER/KIND/NAME.png; the folder of its kind is made. What a file's name should not hold becomes '-' in it. */
+/* Names to names of files, each another one. What a file's name should not hold becomes '-' in it; where that makes
+ * two one, the later gets -2, or the next number that makes a name that nobody has. name: [count] in and out. False:
+ * out of memory. */
+bool ves_folder_names(const char **name, int count, ves_arena *arena);
+
+/* FOLDER/KIND/NAME.png, a name of ves_folder_names; the folder of its kind is made. */
 ves_status ves_folder_picture(const char *folder, const char *kind, const char *name, ves_arena *arena,
                               char **path, ves_diag *diag);
 

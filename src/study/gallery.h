@@ -3,6 +3,7 @@
 #define VES_STUDY_GALLERY_H
 
 #include "output/gallery.h"
+#include "problem/problem.h"
 #include "vesica/plan.h"
 
 /* One design: where, and what is written under it. */
@@ -13,9 +14,19 @@ typedef struct ves_shown_design {
     int notes;
 } ves_shown_design;
 
-/* The first VES_GALLERY_MOST, the best first. name: of the problem. A design without a shape is left out; where
+typedef struct ves_shown_designs {
+    const char *name;       /* of the problem */
+    const char *one, *many; /* what they are: "optimum", "optima" */
+    int designs;
+    const ves_shown_design *design; /* [designs] the best first */
+} ves_shown_designs;
+
+/* A value of the goal as captions have it, with the unit of the file: values of neighbours may differ late. NULL: out of
+ * memory. */
+char *ves_shown_value(double value, const ves_shown *shown, ves_arena *arena);
+
+/* The first VES_GALLERY_MOST. A design without a shape is left out; where
  * none has one there is no file, and VES_OK. */
-ves_status ves_designs_draw(ves_plan *plan, const char *name, const ves_shown_design *design, int designs,
-                            const char *path, ves_diag *diag);
+ves_status ves_designs_draw(ves_plan *plan, const ves_shown_designs *d, const char *path, ves_diag *diag);
 
 #endif

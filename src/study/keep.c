@@ -131,11 +131,9 @@ static ves_status figure_write(const keeper *k, const ves_design *design, const 
 static ves_status optimum_show(const keeper *k, int index, ves_shown_design *design)
 {
     const ves_optimum *o = &k->run->optimum[index];
-    const ves_shown *shown = &k->run->problem->objective_shown;
     const char **note = ves_arena_take(k->arena, 3, sizeof *note);
     int notes = 0;
-    char *value = ves_arena_format(k->arena, "%#.9g%s%s", o->value / shown->factor, *shown->unit ? " " : "",
-                                   shown->unit);
+    char *value = ves_shown_value(o->value, &k->run->problem->objective_shown, k->arena);
     char *found = ves_arena_format(k->arena, o->hits == 1 ? "found once" : "found %d times", o->hits);
     if (!note || !value || !found) return VES_MEMORY;
     note[notes++] = found;
@@ -156,7 +154,8 @@ static ves_status optima_write(const keeper *k)
     if (run->optima < 2) return VES_OK;
     for (int i = 0; i < run->optima; i++)
         if (optimum_show(k, i, &design[i]) != VES_OK) return ves_diag_fail(k->diag, VES_MEMORY);
-    return ves_designs_draw(k->plan, run->problem->title, design, run->optima, path, k->diag);
+    const ves_shown_designs shown = {run->problem->title, "optimum", "optima", run->optima, design};
+    return ves_designs_draw(k->plan, &shown, path, k->diag);
 }
 
 static ves_status annealing_write(const keeper *k)

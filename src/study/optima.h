@@ -1,4 +1,4 @@
-/* The distinct optima that the runs of a benchmark ended at, on problems whose optima are not known. */
+/* The distinct ends of the runs of a benchmark, converged or not, on problems whose optima are not known. */
 #ifndef VES_STUDY_OPTIMA_H
 #define VES_STUDY_OPTIMA_H
 
