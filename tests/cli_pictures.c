@@ -141,3 +141,30 @@ Test(cli_pictures, problems_do_not_share_a_picture)
     cr_expect(system("cmp -s one/optima/a-b.png one/optima/a-b-3.png") != 0, "each has its own");
     root_remove();
 }
+
+/* A sheet of all would be taller than anybody can look at. */
+Test(cli_pictures, of_many_annealings_the_first_and_the_last_are_drawn)
+{
+    static const struct {
+        int annealings;
+        unsigned height;
+    } all[] = {{2, 2 * 680}, {6, 6 * 680}, {7, 6 * 680}, {12, 6 * 680}};
+    root_make();
+    char *text = slurp(PROBLEMS "bottle.yaml");
+    *strstr(text, "search:") = 0;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char path[64];
+        FILE *out = fopen("many.yaml", "w");
+        fprintf(out, "%ssearch: [", text);
+        for (int j = 0; j < all[k].annealings; j++)
+            fprintf(out, "%s{anneal: {evaluations: 400}}", j ? ", " : "");
+        fputs("]\n", out);
+        fclose(out);
+        expect(vesica(NULL, "run many.yaml --out many%d", all[k].annealings), 0, "annealing.png", NULL,
+               "many");
+        snprintf(path, sizeof path, "many%d/annealing.png", all[k].annealings);
+        is_png(path, 960, all[k].height);
+    }
+    free(text);
+    root_remove();
+}

@@ -56,6 +56,22 @@ Test(search_health, the_heat_capacity_has_schottkys_peak)
         }
 }
 
+/* Annealed from below the peak, or from little above it, the heat capacity is largest at the first temperatures: whether
+ * it falls beyond them nobody has seen. */
+Test(search_health, an_edge_is_no_peak)
+{
+    static const double c0[] = {0.2, 0.3, 0.42};
+    for (uint64_t seed = 1; seed <= 3; seed++)
+        for (size_t k = 0; k < sizeof c0 / sizeof *c0; k++) {
+            double part = 0.5;
+            given g = problem_levels(&part);
+            ves_search_result *r = annealed(&g, "book", "heavy", c0[k], seed);
+            cr_expect(isnan(r->annealing[0].peak), "seed %d, from %g: %g", (int)seed, c0[k],
+                      r->annealing[0].peak);
+            ves_search_result_destroy(r);
+        }
+}
+
 /* The first temperatures of the legs behind the first are those of the peak. */
 Test(search_health, reheating_begins_at_the_peak)
 {

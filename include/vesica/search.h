@@ -280,7 +280,8 @@ typedef struct ves_annealing_report {
     double
         freezing; /* of the last leg: below it the mean energy fell by less than a hundredth of its whole fall */
     /* Where the heat capacity, variance / c^2, was largest: of all legs, smoothed, above where the first one froze.
-     * NAN: nowhere half as large again as where all is frozen. */
+     * NAN: nowhere half as large again as where all is frozen, or largest within VES_HEAT_REACH of the first
+     * temperature, where it may rise on. */
     double peak;
     long swaps, swapped; /* exchanges of replicas: tried, done */
     double least_swap;   /* of the pair that exchanged least: done / tried; NAN: no replicas */

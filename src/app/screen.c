@@ -6,14 +6,13 @@
 #include "app/table.h"
 #include "base/vector.h"
 #include "study/annealing.h"
+#include "study/apart.h"
 #include "study/design.h"
 
 /* A variable this near to its limit, relative to its range, lies on it. */
 static const double AT_LIMIT = 1e-6;
 
-/* Of what sets two optima apart: so many variables, if they differ by this part of the largest difference. */
-enum { OPTIMA = 8, DIFFERENCES = 3, JOINTS = 24, LIMITS = 8 };
-static const double APART = 0.1;
+enum { OPTIMA = 8, JOINTS = 24, LIMITS = 8 };
 
 const char *app_screen_number(double value, char buffer[32])
 {
@@ -281,32 +280,16 @@ void app_screen_joints(const ves_run *run, FILE *out)
     fputc('\n', out);
 }
 
-/* What sets another optimum apart from the best: the variables that differ most, relative to their ranges. */
-static void differences(const ves_run *run, int index, char *text, size_t size)
+/* What sets another optimum apart from the best. */
+static void differences(const ves_run *run, int index, char text[VES_APART * VES_APART_TEXT])
 {
-    const ves_problem *p = run->problem;
-    const double *best = run->optimum[0].x, *x = run->optimum[index].x;
+    char apart[VES_APART][VES_APART_TEXT];
+    int count = ves_apart_tell(run, index, 0, apart);
     size_t length = 0;
-    double most = HUGE_VAL, largest = 0;
     *text = 0;
-    for (int shown = 0; shown < DIFFERENCES; shown++) {
-        double next = 0;
-        int which = -1;
-        for (int k = 0; k < p->variables; k++) {
-            const ves_variable *v = &p->variable[k];
-            double apart = fabs(x[k] - best[k]) / (v->max - v->min);
-            bool idle = run->idle && run->idle[k];
-            if (!idle && apart < most && apart > next) next = apart, which = k;
-        }
-        if (!shown) largest = next;
-        if (which < 0 || next < APART * largest) return;
-        most = next;
-        const ves_variable *v = &p->variable[which];
-        double value = fabs(x[which]) < AT_LIMIT * (v->max - v->min) ? 0 : x[which] / v->shown.factor;
-        int written = snprintf(text + length, size - length, "%s%s = %.4g%s%s", shown ? ", " : "   at ",
-                               v->name, value, *v->shown.unit ? " " : "", v->shown.unit);
-        length += (size_t)written < size - length ? (size_t)written : size - length - 1;
-    }
+    for (int k = 0; k < count; k++)
+        length += (size_t)snprintf(text + length, VES_APART * VES_APART_TEXT - length, "%s%s",
+                                   k ? ", " : "   at ", apart[k]);
 }
 
 static void optima(const ves_run *run, app_table *t)
@@ -315,11 +298,11 @@ static void optima(const ves_run *run, app_table *t)
     if (run->optima < 2 && !(run->optima == 1 && run->optimum[0].saddle)) return;
     for (int k = 0; k < run->optima && k < OPTIMA; k++) {
         const ves_optimum *o = &run->optimum[k];
-        char number[32], hits[64] = "once",
-                         apart[200] = ""; /* more digits than elsewhere: they may differ late */
+        char number[32], hits[64] = "once"; /* more digits than elsewhere: they may differ late */
+        char apart[VES_APART * VES_APART_TEXT] = "";
         snprintf(number, sizeof number, "%#.9g", o->value / shown->factor);
         if (o->hits != 1) app_screen_plural(o->hits, "time", "times", hits);
-        if (k) differences(run, k, apart, sizeof apart);
+        if (k) differences(run, k, apart);
         app_table_cell(t, k ? "" : run->optima == 1 ? "optimum" : "optima");
         app_table_cell(t, "%s%s%s   found %s%s%s%s%s", number, *shown->unit ? " " : "", shown->unit, hits,
                        run->problem->kinds ? "   " : "",

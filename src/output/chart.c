@@ -16,7 +16,7 @@ enum {
     NEAR = 18,
     BOTTOM = 64,
     LABEL = 400,
-    ROOM = 20, /* beside a guide */
+    ROOM = 10, /* before the word of a guide */
     COLOURS = 8,
     MANY = 400,
     DASHES = 5
@@ -278,12 +278,14 @@ static void legend(cairo_t *c, const ves_chart *chart)
     }
 }
 
-/* Dashes, and the word beside their upper end; on the other side where there is no room. */
+static bool guide_seen(const ves_chart *chart, const ves_chart_guide *guide)
+{
+    return guide->x >= chart->x.low && guide->x <= chart->x.high;
+}
+
 static void guide_draw(cairo_t *c, const ves_chart *chart, const ves_chart_guide *guide)
 {
-    if (!(guide->x >= chart->x.low && guide->x <= chart->x.high)) return;
     const double x = px(chart, guide->x);
-    const bool left = guide->left ? x - LEFT >= ROOM : WIDTH - RIGHT - x < ROOM;
     colour(c, quiet, 1);
     cairo_set_line_width(c, 1.2);
     cairo_set_dash(c, dash[1], 4, 0);
@@ -291,14 +293,27 @@ static void guide_draw(cairo_t *c, const ves_chart *chart, const ves_chart_guide
     cairo_line_to(c, x, bottom_of(chart));
     cairo_stroke(c);
     cairo_set_dash(c, NULL, 0, 0);
-    if (!guide->name) return;
-    font(c, 12, false);
-    colour(c, ink, 1);
-    cairo_save(c);
-    cairo_translate(c, left ? x - 5 : x + 14, top_of(chart) + 8);
-    cairo_rotate(c, -acos(-1) / 2);
-    words(c, 0, 0, 1, guide->name);
-    cairo_restore(c);
+}
+
+/* Above the frame, where no line is; each behind the one before it. */
+static void guides_draw(cairo_t *c, const ves_chart *chart)
+{
+    double end = 0;
+    for (int k = 0; k < chart->guides; k++) {
+        const ves_chart_guide *guide = &chart->guide[k];
+        char clean[LABEL];
+        cairo_text_extents_t extents;
+        if (!guide_seen(chart, guide)) continue;
+        guide_draw(c, chart, guide);
+        if (!guide->name) continue;
+        font(c, 12, false);
+        colour(c, ink, 1);
+        ves_utf8_copy(clean, sizeof clean, guide->name);
+        cairo_text_extents(c, clean, &extents);
+        double from = fmax(px(chart, guide->x) - (guide->left ? extents.x_advance : 0), end + ROOM);
+        words(c, from, top_of(chart) - 6, 0, clean);
+        end = from + extents.x_advance;
+    }
 }
 
 static void chart_draw(cairo_t *c, const ves_chart *chart)
@@ -311,7 +326,7 @@ static void chart_draw(cairo_t *c, const ves_chart *chart)
     for (int k = 0; k < chart->lines; k++) line_draw(c, chart, k);
     cairo_restore(c);
     for (int k = 0; k < chart->lines; k++) marks_draw(c, chart, k); /* over the frame too */
-    for (int k = 0; k < chart->guides; k++) guide_draw(c, chart, &chart->guide[k]);
+    guides_draw(c, chart);
     legend(c, chart);
 }
 

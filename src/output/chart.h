@@ -25,8 +25,8 @@ typedef struct ves_chart_axis {
     bool logarithmic;
 } ves_chart_axis;
 
-/* A place on the x axis: an upright line with a word along its right or left side, or NULL. One that lies beyond the axis,
- * or is no number, is not drawn. */
+/* A place on the x axis: an upright line with a word above it that begins there, or ends there (left), or NULL; those
+ * with words from left to right. One that lies beyond the axis, or is no number, is not drawn. */
 typedef struct ves_chart_guide {
     const char *name;
     double x;

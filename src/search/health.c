@@ -186,7 +186,8 @@ static double capacity(const ves_annealing *a, double low, double high, double *
 }
 
 /* The first leg goes through all temperatures. Where chains have frozen, heat capacities are those of the bottoms of
- * their basins, n / 2 at any temperature: a peak stands out above that. */
+ * their basins, n / 2 at any temperature: a peak stands out above that. Where they are largest within reach of the hottest
+ * temperature they may still rise beyond it, and nobody has seen them fall: that is an edge. */
 ves_status ves_annealing_peak(const ves_annealing *a, double *peak)
 {
     ves_session *session = a->session;
@@ -195,11 +196,14 @@ ves_status ves_annealing_peak(const ves_annealing *a, double *peak)
     double *scratch = ves_arena_take(&session->arena, (size_t)session->temperatures, sizeof *scratch);
     if (!scratch) return VES_MEMORY;
     double most = outstanding * capacity(a, 0, frozen, scratch);
+    double hottest = 0;
     *peak = 0;
     for (int k = -1; (t = line_after(a, 0, &k)) && t->c > frozen;) {
         double here = capacity(a, t->c / VES_HEAT_REACH, t->c * VES_HEAT_REACH, scratch);
         if (here > most) most = here, *peak = t->c;
+        hottest = fmax(hottest, t->c);
     }
+    if (*peak * VES_HEAT_REACH > hottest) *peak = 0;
     return VES_OK;
 }
 

@@ -10,9 +10,11 @@
 /* Both curves go through the temperatures of the log, each point the mean over a factor of VES_HEAT_REACH both ways and over
  * all legs, as the report has it; specks are the lines of the log as they are. */
 
-enum { POINTS = 250, FEW = 40, PANELS = 2, GUIDES = 2, UPPER = 300, LOWER = 380 }; /* UPPER, LOWER: pixels */
+/* MOST: annealings on a sheet, the first and the last ones; UPPER, LOWER: pixels */
+enum { POINTS = 250, FEW = 40, PANELS = 2, GUIDES = 2, MOST = 6, UPPER = 300, LOWER = 380 };
 
-static const double above = 1.15; /* the highest point */
+/* The axis ends above the highest point; without a peak at so many times n / 2 at most. */
+static const double above = 1.15, wells = 6;
 
 /* One annealing. */
 typedef struct history {
@@ -145,14 +147,14 @@ static ves_chart upper_chart(history *h, const ves_chart_axis *x)
 }
 
 /* What matters: the curve where nothing is frozen, and n / 2. Of chains that are no more in equilibrium, variance / T^2
- * may be anything: that leaves the chart. */
+ * may be anything: that leaves the chart. So does what is no peak: it would press the level of a well to the floor. */
 static double highest(const history *h, double well)
 {
     const ves_annealing_report *r = &h->run->annealing[h->index];
     double most = well, low = fmin(r->freezing, r->peak);
     for (int k = 0; k < h->points; k++)
         if ((isnan(low) || h->c[k] >= low) && isfinite(h->heat[k])) most = fmax(most, h->heat[k]);
-    return most;
+    return isnan(r->peak) ? fmin(most, wells * well) : most;
 }
 
 static ves_chart lower_chart(history *h, const ves_chart_axis *x)
@@ -169,7 +171,7 @@ static ves_chart lower_chart(history *h, const ves_chart_axis *x)
         .name = "each temperature", .count = h->specks, .x = h->at, .y = h->raw, .mark = VES_MARK_SPECK};
     h->lower[2] = (ves_chart_line){.name = "n / 2, a single well", .count = 2, .x = h->end, .y = h->well};
     return (ves_chart){.x = *x,
-                       .y = {"heat capacity, variance / T\xC2\xB2", 0, above * most, false},
+                       .y = {"heat capacity, variance / T^2", 0, above * most, false},
                        .lines = 3,
                        .line = h->lower,
                        .height = LOWER};
@@ -182,22 +184,33 @@ static bool guides_set(history *h, ves_chart panel[PANELS], ves_arena *arena)
     const double peak = r->peak / h->shown.factor, freezing = r->freezing / h->shown.factor;
     char *peaks = ves_arena_format(arena, "peak, %.3g", peak);
     char *freezes = ves_arena_format(arena, "frozen below %.3g", freezing);
-    h->guide[0] = (ves_chart_guide){NULL, peak, false};
-    h->guide[1] = (ves_chart_guide){NULL, freezing, true};
-    h->guide[GUIDES] = (ves_chart_guide){peaks, peak, false};
-    h->guide[GUIDES + 1] = (ves_chart_guide){freezes, freezing, true};
+    const bool behind = !(peak < freezing); /* as a rule; a later leg may freeze above the peak */
+    for (int k = 0; k < PANELS; k++) {
+        h->guide[k * GUIDES + behind] = (ves_chart_guide){k ? peaks : NULL, peak, !behind};
+        h->guide[k * GUIDES + !behind] = (ves_chart_guide){k ? freezes : NULL, freezing, behind};
+    }
     for (int k = 0; k < PANELS; k++) panel[k].guides = GUIDES, panel[k].guide = h->guide + k * GUIDES;
     return peaks && freezes;
 }
 
-static ves_status panels_make(history *h, int of, ves_chart panel[PANELS], ves_arena *arena)
+/* Of those that are drawn: `before` are left out between it and the one above it. */
+static char *title_of(const history *h, int before, ves_arena *arena)
 {
-    const char *unit = h->shown.unit, *title = h->run->problem->title;
+    const int of = h->run->annealings;
+    const char *title = h->run->problem->title;
+    if (of == 1) return ves_arena_format(arena, "Annealing: %s", title);
+    if (!before) return ves_arena_format(arena, "Annealing %d of %d: %s", h->index + 1, of, title);
+    return ves_arena_format(arena, "Annealing %d of %d (%d before it left out): %s", h->index + 1, of, before,
+                            title);
+}
+
+static ves_status panels_make(history *h, int before, ves_chart panel[PANELS], ves_arena *arena)
+{
+    const char *unit = h->shown.unit;
     ves_chart_axis x = {.low = h->x[0], .high = h->x[h->points - 1], .logarithmic = true};
     panel[0] = upper_chart(h, &x);
     panel[1] = lower_chart(h, &x);
-    panel[0].title = of > 1 ? ves_arena_format(arena, "Annealing %d of %d: %s", h->index + 1, of, title)
-                            : ves_arena_format(arena, "Annealing: %s", title);
+    panel[0].title = title_of(h, before, arena);
     panel[1].x.label = ves_arena_format(arena, "temperature T%s%s%s; cooled from right to left",
                                         *unit ? " [" : "", unit, *unit ? "]" : "");
     return guides_set(h, panel, arena) && panel[0].title && panel[1].x.label ? VES_OK : VES_MEMORY;
@@ -205,17 +218,21 @@ static ves_status panels_make(history *h, int of, ves_chart panel[PANELS], ves_a
 
 ves_status ves_annealing_draw(const ves_run *run, const char *path, ves_arena *arena, ves_diag *diag)
 {
-    const size_t most = (size_t)run->annealings;
-    history *h = ves_arena_take(arena, most, sizeof *h);
-    ves_chart *panel = ves_arena_take(arena, PANELS * most, sizeof *panel);
-    int panels = 0;
+    history *h = ves_arena_take(arena, MOST, sizeof *h);
+    ves_chart *panel = ves_arena_take(arena, PANELS * MOST, sizeof *panel);
+    int curves = 0, seen = 0, drawn = 0;
     if (!h || !panel) return ves_diag_fail(diag, VES_MEMORY);
+    for (int k = 0; k < run->annealings; k++) curves += has_curve(run, k);
+    const int out = curves > MOST ? curves - MOST : 0;
     for (int k = 0; k < run->annealings; k++) {
         if (!has_curve(run, k)) continue;
-        if (!history_init(&h[k], run, k, arena) ||
-            panels_make(&h[k], run->annealings, panel + panels, arena) != VES_OK)
+        const int at = seen++;
+        if (out && at >= MOST / 2 && at < MOST / 2 + out) continue;
+        const int before = at == MOST / 2 + out ? out : 0;
+        if (!history_init(&h[drawn], run, k, arena) ||
+            panels_make(&h[drawn], before, panel + PANELS * drawn, arena) != VES_OK)
             return ves_diag_fail(diag, VES_MEMORY);
-        panels += PANELS;
+        drawn++;
     }
-    return ves_charts_write(panel, panels, path, diag);
+    return ves_charts_write(panel, PANELS * drawn, path, diag);
 }

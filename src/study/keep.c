@@ -7,6 +7,7 @@
 #include "output/file.h"
 #include "output/output.h"
 #include "study/annealing.h"
+#include "study/apart.h"
 #include "study/design.h"
 #include "study/folder.h"
 #include "study/gallery.h"
@@ -127,18 +128,22 @@ static ves_status figure_write(const keeper *k, const ves_design *design, const 
     return status;
 }
 
-/* As the screen lists them. */
+/* As the screen lists them; the best is told apart from the second, that it can be compared. */
 static ves_status optimum_show(const keeper *k, int index, ves_shown_design *design)
 {
     const ves_optimum *o = &k->run->optimum[index];
-    const char **note = ves_arena_take(k->arena, 3, sizeof *note);
-    int notes = 0;
+    char apart[VES_APART][VES_APART_TEXT];
+    const int told = ves_apart_tell(k->run, index, index ? 0 : 1, apart);
+    const char **note = ves_arena_take(k->arena, 3 + VES_APART, sizeof *note);
     char *value = ves_shown_value(o->value, &k->run->problem->objective_shown, k->arena);
-    char *found = ves_arena_format(k->arena, o->hits == 1 ? "found once" : "found %d times", o->hits);
-    if (!note || !value || !found) return VES_MEMORY;
-    note[notes++] = found;
+    int notes = 0;
+    if (!note || !value) return VES_MEMORY;
+    note[notes++] = ves_arena_format(k->arena, o->hits == 1 ? "found once" : "found %d times", o->hits);
     if (k->run->problem->kinds) note[notes++] = ves_design_kind(k->run->problem, k->run->optimum_kind[index]);
     if (o->saddle) note[notes++] = "a saddle";
+    for (int i = 0; i < told; i++) note[notes++] = ves_arena_text(k->arena, apart[i], strlen(apart[i]));
+    for (int i = 0; i < notes; i++)
+        if (!note[i]) return VES_MEMORY;
     *design = (ves_shown_design){.x = o->x, .caption = value, .note = note, .notes = notes};
     return VES_OK;
 }
