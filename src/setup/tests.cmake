@@ -26,7 +26,7 @@ foreach(file ${tests})
   # Oracles round every operation; Criterion's macros convert.
   set_source_files_properties(${file} PROPERTIES COMPILE_OPTIONS "-ffp-contract=off;-Wno-conversion")
   add_test(NAME ${name} COMMAND ${under} $<TARGET_FILE:test_${name}>)
-  set_tests_properties(${name} PROPERTIES TIMEOUT 300)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 1200) # sanitized, on a machine with other work: minutes
 endforeach()
 # These count the calls of the allocator and make them fail (tests/memory.h).
 foreach(name allocation problem_text search_run)
