@@ -466,7 +466,8 @@ Test(problem, a_plugin_is_used_like_a_measure_of_the_house)
 {
     const ves_read_options options = {.plugin = plugin};
     ves_problem *p = read_with(
-        BASE "measures: {E: {helfrich: 3/2}, F: {helfrich: {c0: 1, over: wall}}}\nminimize: E + F + helfrich\n",
+        BASE
+        "measures: {E: {helfrich: 3/2}, F: {helfrich: {c0: 1, over: wall}}}\nminimize: E + F + helfrich\n",
         &options);
     double *block = block_of(p);
     const double c0[] = {1.5, 1, 0.5};

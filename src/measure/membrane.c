@@ -37,22 +37,33 @@ double ves_membrane_energy(const ves_measure_input *input, const ves_membrane *m
     return energy;
 }
 
+/* What the integrals of the parts are worth to numbers that were written; where none was they are not taken. */
+static void rigidities_scatter(const ves_measure_input *input, const ves_membrane *m, double seed,
+                               double *number_adjoint)
+{
+    double sum;
+    if (input->args->arg[VES_MEMBRANE_KAPPA].given) {
+        ves_quadratic bending = integrand(m);
+        bending.k = 0;
+        ves_sum_eval(input, bending, &sum);
+        ves_argument_scatter(input, VES_MEMBRANE_KAPPA, 0, seed * sum / m->kappa, number_adjoint);
+    }
+    if (input->args->arg[VES_MEMBRANE_KAPPA_G].given) {
+        ves_sum_eval(input, (ves_quadratic){.k = 1}, &sum);
+        ves_argument_scatter(input, VES_MEMBRANE_KAPPA_G, 0, seed * sum, number_adjoint);
+    }
+}
+
 void ves_membrane_energy_gradient(const ves_measure_input *input, const ves_membrane *m, double seed,
                                   const ves_adjoint *const *adjoint, double *number_adjoint)
 {
-    const double by_C0 = seed * m->kappa * (m->C0 * m->area - 2 * m->mean);
-    double bending, gauss;
-    ves_quadratic f = integrand(m), unit = f;
-    if (m->reduced_c0 != 0)
-        f.a -= m->kappa * (m->C0 * m->area - 2 * m->mean) * m->reduced_c0 / (2 * m->R0 * m->area);
+    const double by_C0 = m->kappa * (m->C0 * m->area - 2 * m->mean);
+    ves_quadratic f = integrand(m);
+    if (m->reduced_c0 != 0) f.a -= by_C0 * m->reduced_c0 / (2 * m->R0 * m->area);
     ves_sum_gradient(input, f, seed, adjoint);
-    unit.k = 0;
-    ves_sum_eval(input, unit, &bending);
-    ves_sum_eval(input, (ves_quadratic){.k = 1}, &gauss);
-    ves_argument_scatter(input, VES_MEMBRANE_KAPPA, 0, seed * bending / m->kappa, number_adjoint);
-    ves_argument_scatter(input, VES_MEMBRANE_C0, 0, by_C0, number_adjoint);
-    ves_argument_scatter(input, VES_MEMBRANE_REDUCED_C0, 0, by_C0 / m->R0, number_adjoint);
-    ves_argument_scatter(input, VES_MEMBRANE_KAPPA_G, 0, seed * gauss, number_adjoint);
+    ves_argument_scatter(input, VES_MEMBRANE_C0, 0, seed * by_C0, number_adjoint);
+    ves_argument_scatter(input, VES_MEMBRANE_REDUCED_C0, 0, seed * by_C0 / m->R0, number_adjoint);
+    rigidities_scatter(input, m, seed, number_adjoint);
 }
 
 double ves_membrane_difference(const ves_measure_input *input)
