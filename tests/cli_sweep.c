@@ -167,6 +167,17 @@ Test(cli_sweep, units)
     double V = 1.5e-4, r = number(&l->line[1], "variables", "r"), h = number(&l->line[1], "variables", "h");
     cr_expect(fabs(VES_PI * r * r * h - V) < 1e-6 * V);
     lines_done(l);
+    /* dimensions whose SI unit is no plain product: a curvature, an energy */
+    write_file(
+        "w.yaml",
+        "vesica: 1\nparameters: {k: 2 um^-1, e: 3 J}\nvariables: {r: [0.2 um, 0.3 um, 0.6 um]}\n"
+        "curves: {low: {circle: {radius: r}}, high: {like: low, apply: [{translate: [0 um, 0 um, 1 um]}]}}\n"
+        "patches: {wall: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: low}, {u: 1, position: "
+        "high}]}}\nminimize: e*(1 - k*r)^2\n");
+    expect(vesica(NULL, "sweep w.yaml --over k=2um^-1,2.5um^-1 --over e=1J,3J --out w"), 0, "k [um^-1]",
+           "4 points in 2 walks", "such units");
+    cr_expect(count_of("w/sweep.csv", ",2.5,3,ok,,") == 1, "%s", slurp("w/sweep.csv"));
+    cr_expect(count_of("w/sweep.csv", ",0,ok,") == 0 && count_of("w/sweep.csv", ",ok,") == 4);
     root_remove();
 }
 

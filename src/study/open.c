@@ -64,7 +64,10 @@ const char *ves_study_quantity(const char *number, ves_dim dim, const ves_shown 
     if (!strcmp(shown->unit, "deg")) return ves_arena_format(arena, "%s rad", number);
     if (!strcmp(shown->unit, "%")) return ves_arena_format(arena, "(%s)", number); /* a formula needs none */
     if (dim.any || !strcmp(unit, "1")) return number;
-    return ves_arena_format(arena, "%s %s", number, unit);
+    if (*unit != '1' && !strchr(unit, ' ')) return ves_arena_format(arena, "%s %s", number, unit);
+    /* 1/m and kg m^2/s^2 can be read by people only; powers come in sixths */
+    return ves_arena_format(arena, "%s*(1 kg)^(%d/6)*(1 m)^(%d/6)*(1 s)^(%d/6)", number, dim.kg, dim.m,
+                            dim.s);
 }
 
 static bool is_number(const ves_node *node)
