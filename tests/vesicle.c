@@ -126,3 +126,37 @@ Test(vesicle, stomatocytes)
 {
     compare(&FAMILIES[2], (double[]){0.55, 0.58, 0.62, 0.65}, 4, 5e-4, 2e-2);
 }
+
+/* In um and J: E is 8 pi kappa times that of the same reduced volume, whatever the size. */
+Test(vesicle, a_red_cell_in_its_units)
+{
+    enum { SIZES = 3 };
+    static const char *const set[SIZES][3] = {{"135 um^2", "94 um^3", "2e-19 J"},
+                                              {"540 um^2", "752 um^3", "2e-19 J"},
+                                              {"135 mm^2", "94 mm^3", "3 J"}};
+    static const double kappa[SIZES] = {2e-19, 2e-19, 3}, size[SIZES] = {1e-6, 2e-6, 1e-3};
+    double b[EX_MODES] = {0};
+    oblate_begin(b);
+    exact *e = exact_create(60, 0, 94 * 6 * sqrt(EX_PI) / pow(135, 1.5));
+    exact_solve(e, b);
+    cr_expect(fabs(e->energy - 1.85886309) < 2e-8, "%.9f", e->energy);
+    for (int k = 0; k < SIZES; k++) {
+        ves_problem *problem = NULL;
+        ves_run *run = NULL;
+        const ves_override with[3] = {{"A", set[k][0]}, {"V", set[k][1]}, {"kappa", set[k][2]}};
+        const ves_read_options options = {.overrides = 3, .override = with};
+        cr_assert(ves_problem_read(VESICA_SOURCE "/problems/vesicle/red-cell.yaml", &options, &problem,
+                                   NULL) == VES_OK);
+        cr_assert(ves_run_create(problem, NULL, NULL, &run, NULL) == VES_OK);
+        cr_assert(run->any && run->feasible);
+        double reduced = run->best.objective / (8 * EX_PI * kappa[k]);
+        cr_expect(reduced > e->energy * (1 - 1e-6) && reduced < e->energy * (1 + 1e-5),
+                  "%s: %.8f, exactly %.8f", set[k][0], reduced, e->energy);
+        double thick = fabs(slot(run, "zn") - slot(run, "zs")),
+               want = fabs(e->thickness) * sqrt(135 / (4 * EX_PI)) * size[k];
+        cr_expect(fabs(thick / want - 1) < 2e-3, "%s: %g thick, exactly %g", set[k][0], thick, want);
+        ves_run_destroy(run);
+        ves_problem_destroy(problem);
+    }
+    free(e);
+}

@@ -152,7 +152,7 @@ static inline double exact_unit(int k)
 
 static inline void exact_at(exact *e, const double *y)
 {
-    double b[EX_MODES];
+    double b[EX_MODES] = {0};
     const size_t size = (size_t)e->modes * sizeof *y;
     if (!memcmp(y, e->bound, size)) return; /* energy and equations are asked for in turn */
     memcpy(e->bound, y, size);
