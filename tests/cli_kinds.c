@@ -5,7 +5,7 @@
 
 /* A double well in x, tilted by t: (x^2 - 1)^2 + t x, which has two minima while |t| < 8/(3 sqrt(3)) = 1.5396. */
 #define WELL(kinds)                                                                                          \
-    "vesica: 1\nparameters: {t: 0}\nvariables: {x: [-2, 0.5, 2]}\n"                                          \
+    "vesica: 1\nparameters: {t: 0, k: 1}\nvariables: {x: [-2, 0.5, 2]}\n"                                    \
     "curves: {low: {circle: {radius: 3 + x}}, high: {like: low, apply: [{translate: [0, 0, 1]}]}}\n"         \
     "patches: {wall: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: low}, {u: 1, position: "     \
     "high}]}}\n"                                                                                             \
@@ -100,5 +100,64 @@ Test(cli_kinds, a_branch_that_names_its_kind_loses_what_has_left_it)
     write_file("set.yaml",
                WELL(SIDES) "sweep: {over: {t: [1, 2]}, branches: {x: {set: {kinds.left: x < 1}}}}\n");
     expect(vesica(NULL, "sweep set.yaml"), 2, NULL, "what is set here changes the kinds", "kinds");
+    root_remove();
+}
+
+static double reached_of(const char *file, int line)
+{
+    char *text = slurp(file), *at = text;
+    for (; line > 0; line--) at = strchr(at, '\n') + 1;
+    at[strcspn(at, "\n")] = 0;
+    json j = json_of(at);
+    const ves_node *reached = ves_node_find(j.root, "reached");
+    cr_assert(reached && reached->kind == VES_NODE_WORD);
+    double value = strcmp(reached->text, "null") ? atof(reached->text) : NAN;
+    json_done(&j);
+    free(text);
+    return value;
+}
+
+/* The right well is there until t = 8/(3 sqrt(3)) = 1.5396. A step from 1 to 2 loses it; smaller ones follow it nearly to
+ * its end: near there the first stride of a descent is longer than the well is wide. Gone on with, it is the same. */
+Test(cli_kinds, smaller_steps_follow_a_branch_to_its_end)
+{
+    root_make();
+    write_file("w.yaml", WELL(SIDES) "sweep:\n  over: {t: {from: 0, to: 3, step: 1}}\n  finest: 0.002\n"
+                                     "  branches: {right: {set: {x: 1.2}, kind: right}}\n");
+    outcome o = vesica(NULL, "sweep w.yaml --out w");
+    cr_expect(strstr(o.out, "  ends       right, followed to t = 1.5") &&
+                  strstr(o.out, "; a step of 0.002 loses it: left its branch: left, not right\n") &&
+                  strstr(o.out, "  lost       right, at t = 2 ... 3: left its branch: left, not right\n"),
+              "%s", o.out);
+    done(&o);
+    const double end = 8 / (3 * sqrt(3)), reached = reached_of("w/points.jsonl", 2);
+    cr_expect(reached <= end && reached >= 1.5, "%.6f, the end is at %.6f", reached, end);
+    cr_expect(isnan(reached_of("w/points.jsonl", 1)) && isnan(reached_of("w/points.jsonl", 3)));
+    cr_expect(count_of("w/sweep.csv", ",status,reason,reached,kind,was,") == 1);
+    char *whole = slurp("w/points.jsonl"), *walk = slurp("w/walks/0000.jsonl");
+    char *third = strchr(strchr(strchr(walk, '\n') + 1, '\n') + 1, '\n') + 1;
+    *third = 0; /* as if it had been killed before the last point */
+    write_file("w/walks/0000.jsonl", walk);
+    expect(vesica(NULL, "sweep --resume w"), 1, "followed to t = 1.5", NULL, "resumed");
+    char *again = slurp("w/points.jsonl");
+    cr_expect_str_eq(again, whole);
+    free(whole), free(walk), free(again);
+    root_remove();
+}
+
+/* A branch may be walked at some values of the second parameter alone. */
+Test(cli_kinds, a_branch_has_its_values_of_the_second_parameter)
+{
+    root_make();
+    write_file(
+        "w.yaml",
+        WELL(SIDES) "sweep:\n  over: {t: [0, 0.5], k: [1, 2, 3]}\n"
+                    "  branches: {right: {set: {x: 1.2}, at: [1, 3]}, left: {set: {x: -1.2}, at: 2}}\n");
+    outcome o = vesica(NULL, "sweep w.yaml --out w");
+    cr_expect(strstr(o.out, "  right, k = 1 ") && strstr(o.out, "  right, k = 3 ") &&
+                  strstr(o.out, "  left, k = 2 ") && strstr(o.out, "right, k = 2") == NULL,
+              "%s", o.out);
+    cr_expect(strstr(o.err, ": 6 points in 3 walks") != NULL, "%s", o.err);
+    done(&o);
     root_remove();
 }

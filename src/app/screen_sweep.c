@@ -7,7 +7,7 @@
 #include "app/table.h"
 #include "study/design.h"
 
-enum { ROWS = 24, WALKS = 48, BAR = 30, COLUMNS = 16 };
+enum { ROWS = 24, WALKS = 48, BAR = 30, COLUMNS = 16, LOST = 3 };
 
 static void range_print(const ves_sweep *s, int axis, FILE *out)
 {
@@ -88,14 +88,20 @@ static void walks(const ves_sweep *s, FILE *out)
 
 /* --- what is worth a word --- */
 
-/* "nu = 0.5", "nu = 0.5 ... 0.58" */
-static void places_print(const ves_sweep *s, int first, int last, FILE *out)
+/* "0.5", "0.5 ... 0.58" */
+static void range_of_places(const ves_sweep *s, int first, int last, FILE *out)
 {
     char a[VES_QUANTITY], b[VES_QUANTITY];
     ves_sweep_text(s, 0, first, a);
     ves_sweep_text(s, 0, last, b);
-    fputs(a, out);
+    fputs(strstr(a, " = ") + 3, out);
     if (first != last) fprintf(out, " ... %s", strstr(b, " = ") + 3);
+}
+
+static void places_print(const ves_sweep *s, int first, int last, FILE *out)
+{
+    fprintf(out, "%s = ", s->def->axis[0].name);
+    range_of_places(s, first, last, out);
 }
 
 static bool is_lost(const ves_sweep *s, int walk, int place)
@@ -115,24 +121,61 @@ static bool alike(const char *a, const char *b)
     }
 }
 
-static bool lost_alike(const ves_sweep *s, int walk, int first, int place)
+static bool lost_for(const ves_sweep *s, int walk, int place, const char *reason)
 {
-    return is_lost(s, walk, place) && alike(s->point[ves_sweep_point_at(s, walk, first)].reason,
-                                            s->point[ves_sweep_point_at(s, walk, place)].reason);
+    return is_lost(s, walk, place) && alike(s->point[ves_sweep_point_at(s, walk, place)].reason, reason);
 }
 
-/* Each row of neighbours that are lost for one reason, as the first that the walk lost has it. */
+/* Rows of neighbours that were lost for one reason; the first few. */
+static void lost_places(const ves_sweep *s, int walk, const char *reason, FILE *out)
+{
+    int rows = 0;
+    for (int first = 0, last; first < s->count; first = last + 1) {
+        last = first;
+        if (!lost_for(s, walk, first, reason)) continue;
+        while (last + 1 < s->count && lost_for(s, walk, last + 1, reason)) last++;
+        if (rows == LOST) {
+            fputs(" and elsewhere", out);
+            return;
+        }
+        if (rows++)
+            fputs(", ", out);
+        else
+            fprintf(out, "%s = ", s->def->axis[0].name);
+        range_of_places(s, first, last, out);
+    }
+}
+
+/* A line for each reason that a walk lost points for, as the first that it lost so has it. */
 static void lost(const ves_sweep *s, int walk, FILE *out)
 {
     const char *name = s->walk[walk].name;
-    for (int first = 0, last; first < s->count; first = last + 1) {
-        last = first;
-        if (!is_lost(s, walk, first)) continue;
-        while (last + 1 < s->count && lost_alike(s, walk, first, last + 1)) last++;
-        int index = ves_sweep_point_at(s, walk, s->walk[walk].back ? last : first);
+    const ves_sweep_point *point = s->point + walk * s->count;
+    for (int k = 0; k < s->count; k++) {
+        int before = k - 1;
+        if (!point[k].done || point[k].good) continue;
+        while (before >= 0 &&
+               (!point[before].done || point[before].good || !alike(point[before].reason, point[k].reason)))
+            before--;
+        if (before >= 0) continue;
         fprintf(out, "  lost       %s%sat ", name, *name ? ", " : "");
-        places_print(s, first, last, out);
-        fprintf(out, ": %s\n", s->point[index].reason);
+        lost_places(s, walk, point[k].reason, out);
+        fprintf(out, ": %s\n", point[k].reason);
+    }
+}
+
+/* How far smaller steps went where a branch was lost. */
+static void ends(const ves_sweep *s, int walk, FILE *out)
+{
+    const ves_sweep_axis *axis = &s->def->axis[0];
+    const double factor = s->problem->parameter[axis->parameter].shown.factor;
+    const char *name = s->walk[walk].name;
+    for (int k = walk * s->count; k < (walk + 1) * s->count; k++) {
+        char reached[32], finest[32];
+        if (!is_lost(s, walk, ves_sweep_place(s, k)) || !isfinite(s->point[k].reached)) continue;
+        fprintf(out, "  ends       %s%sfollowed to %s = %s; a step of %s loses it: %s\n", name,
+                *name ? ", " : "", axis->name, app_screen_number(s->point[k].reached / factor, reached),
+                app_screen_number(s->def->finest / factor, finest), s->point[k].reason);
     }
 }
 
@@ -289,6 +332,7 @@ void app_screen_sweep(const ves_sweep *s, FILE *out)
     bests(s, out);
     const int shown = s->walks < WALKS ? s->walks : WALKS;
     for (int w = 0; w < shown; w++) lost(s, w, out);
+    for (int w = 0; w < shown; w++) ends(s, w, out);
     for (int w = 0; w < shown; w++) turns(s, w, out);
     for (int w = 0; w < shown; w++) apart(s, w, out);
     for (int w = 0; w < shown; w++) merged(s, w, out);

@@ -283,9 +283,9 @@ static void compound(ves_writer *w, const ves_entry *e, const ves_measure *const
         ves_write(w, "}}]");
         break;
     case VES_SWEPT:
-        ves_write(w, "\"anyOf\":[{" NUMBER "},{\"type\":\"array\",\"minItems\":1,\"items\":{" NUMBER "}},{");
-        properties(w, e->table, plugin);
-        ves_write(w, "}]");
+        ves_write(w, "\"anyOf\":[{" NUMBER "},{\"type\":\"array\",\"minItems\":1,\"items\":{" NUMBER "}}");
+        if (e->table) ves_write(w, ",{"), properties(w, e->table, plugin), ves_write(w, "}");
+        ves_write(w, "]");
         break;
     case VES_VARIED:
         ves_write(w, "\"type\":[\"string\",\"array\",\"object\"]");

@@ -219,7 +219,8 @@ typedef struct ves_sweep_branch {
     ves_mark mark; /* of what it sets */
     int sets;
     const ves_override *set;
-    int kind; /* that of all its points, the others are lost; -1: any */
+    int kind;          /* that of all its points, the others are lost; -1: any */
+    ves_sweep_axis at; /* the values of the second parameter where it is walked; count 0: all */
 } ves_sweep_branch;
 
 typedef struct ves_sweep_def {
@@ -232,6 +233,8 @@ typedef struct ves_sweep_def {
     ves_search_options search; /* of every point but the first of a walk */
     bool begins;               /* first holds; else the first point of a walk is searched as the file says */
     ves_search_options first;
+    double
+        finest; /* where a walk would lose its branch it takes smaller steps, down to this; 0: it does not */
 } ves_sweep_def;
 
 struct ves_problem {

@@ -300,6 +300,7 @@ static const ves_entry kind[] = {
 static const ves_entry branch_keys[] = {
     {{"set", KIND(VES_NAMED), .about = "changes of the file, as --set makes them"}, "set: {zn: 0.4, R: 1.3}", branch_setting},
     {{"kind", VES_TEXT, .about = "one of `kinds`, the kind of all designs of the branch: a point that ends at another is lost, and the next one begins at the last that was of it. Unless given, any"}, "kind: oblate", NULL},
+    {{"at", KIND(VES_SWEPT), .about = "the values of the second parameter at which the branch is walked; unless given, all"}, "at: [0]", NULL},
     END};
 
 static const ves_entry branch[] = {
@@ -311,6 +312,7 @@ static const ves_entry sweep_keys[] = {
     {{"branches", KIND(VES_NAMED), .about = "families of shapes that are walked each by itself; unless given, one, which begins where the file does"}, "branches: {oblate: {set: {zn: 0.4, R: 1.3}}, prolate: {}}", branch},
     {{"search", KIND(VES_LIST), .words = "auto", .about = "the search at every point of a walk but its first, from the best of the point before; a polish unless given"}, "search: [{polish: {}}]", ves_schema_stage},
     {{"first", KIND(VES_LIST), .words = "auto", .about = "the search at the first point of a walk; unless given, that of the file, or, with branches, which it might leave, that of all points"}, "first: [{anneal: {}}, {polish: {}}]", ves_schema_stage},
+    {{"finest", VES_NUMBER, .fallback = NAN, .about = "where a walk would lose its branch its steps are halved, down to this, in the first parameter: the branch is followed as far as it goes, and the point that is lost all the same says how far (`reached`). Unless given, steps are what `over` says"}, "finest: 0.001", NULL},
     END};
 
 static const ves_entry root[] = {

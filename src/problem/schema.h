@@ -32,7 +32,7 @@ enum {
     VES_CHECK,     /* such a formula that must hold */
     VES_END,       /* an end of a patch: wall.u0 */
     VES_PAIR,      /* one number, or a list of two */
-    VES_SWEPT,     /* values of a parameter: one, a list, or the keys of `table` */
+    VES_SWEPT,     /* values of a parameter: one, a list, or the keys of `table`, if it has one */
     VES_LATER      /* a word that a later version will understand; `about` says as what */
 };
 

@@ -218,6 +218,30 @@ static bool swept(const ves_sweep_def *sweep, const char *name)
     return false;
 }
 
+/* Some of the values that the second parameter has. */
+static void at_read(axes *a, const ves_node *node, ves_sweep_axis *at)
+{
+    const ves_sweep_axis *axis = &a->sweep->axis[1];
+    const int before = a->reader->errors;
+    if (a->sweep->axes < 2) {
+        ves_reader_error(a->reader, VES_SYNTAX, node,
+                         "\"at\" is about the second parameter, and this sweep has but one");
+        return;
+    }
+    const ves_formula *formula =
+        axis->parameter < 0 ? NULL : a->reader->problem->parameter[axis->parameter].formula;
+    if (!formula) return;
+    *at = (ves_sweep_axis){.name = axis->name, .parameter = axis->parameter};
+    list_read(a, node, at, ves_formula_dim(formula));
+    for (int k = 0; a->reader->errors == before && k < at->count; k++) {
+        int other = axis->count - 1;
+        while (other >= 0 && axis->value[other] != at->value[k]) other--;
+        if (other < 0)
+            ves_reader_error(a->reader, VES_RANGE, node,
+                             "%g is not among the values of \"%s\" that are swept", at->value[k], axis->name);
+    }
+}
+
 static void branch_read(axes *a, const ves_named *named, ves_sweep_branch *branch)
 {
     ves_fields f;
@@ -227,6 +251,8 @@ static void branch_read(axes *a, const ves_named *named, ves_sweep_branch *branc
     const ves_node *set = ves_fields_find(&f, "set"), *kind = ves_fields_find(&f, "kind");
     const ves_named *found = kind ? ves_names_ask(a->reader, &a->reader->kinds, kind) : NULL;
     if (found) branch->kind = found->index;
+    const ves_node *at = ves_fields_find(&f, "at");
+    if (at) at_read(a, at, &branch->at);
     if (!set) return;
     branch->set = ves_reader_overrides(a->reader, set, &branch->sets);
     for (int k = 0; set->kind == VES_NODE_MAP && k < set->count; k++)
@@ -247,6 +273,23 @@ static void branches_read(axes *a, const ves_node *node)
     a->sweep->branches = names.count;
 }
 
+/* Of the dimension of the first parameter. */
+static void finest_read(axes *a, const ves_node *node)
+{
+    const ves_sweep_axis *axis = &a->sweep->axis[0];
+    const ves_formula *formula = a->sweep->axes && axis->parameter >= 0
+                                     ? a->reader->problem->parameter[axis->parameter].formula
+                                     : NULL;
+    if (!node || !formula) return;
+    const int before = a->reader->errors;
+    double value = value_read(a, node, "finest", ves_formula_dim(formula));
+    if (a->reader->errors > before) return;
+    a->sweep->finest = value;
+    if (!(value > 0))
+        ves_reader_error(a->reader, VES_RANGE, node,
+                         "\"finest\" must be > 0, got %g: it is the length of a step", value);
+}
+
 void ves_reader_sweep(ves_reader *reader, const ves_fields *root)
 {
     const ves_node *node = ves_fields_find(root, "sweep");
@@ -263,6 +306,7 @@ void ves_reader_sweep(ves_reader *reader, const ves_fields *root)
     sweep->search.stage[0] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = ves_polish_default()};
     over_read(&a, ves_fields_find(&f, "over"));
     branches_read(&a, ves_fields_find(&f, "branches"));
+    finest_read(&a, ves_fields_find(&f, "finest"));
     const ves_node *search = ves_fields_find(&f, "search");
     const ves_node *first = ves_fields_find(&f, "first");
     if (search) ves_reader_stages(reader, search, &sweep->search);

@@ -83,6 +83,15 @@ static const char *walk_name(whole *w, const ves_sweep_walk *walk)
     return ves_arena_format(&w->arena, "%.100s%s%s%s%s", part[0], gap[0], part[1], gap[1], part[2]);
 }
 
+/* Is the branch walked at this value of the second parameter? */
+static bool is_walked(const ves_sweep_def *def, int branch, int second)
+{
+    const ves_sweep_axis *at = def->branches ? &def->branch[branch].at : NULL;
+    bool walked = !at || !at->count;
+    for (int k = 0; !walked && k < at->count; k++) walked = at->value[k] == def->axis[1].value[second];
+    return walked;
+}
+
 static ves_status walks_make(whole *w)
 {
     ves_sweep *s = &w->shown;
@@ -99,7 +108,7 @@ static ves_status walks_make(whole *w)
     for (int b = 0; b < branches; b++)
         for (int j = 0; j < seconds; j++)
             for (int way = 0; way < 2; way++) {
-                if (!(way ? def->back : def->forth)) continue;
+                if (!(way ? def->back : def->forth) || !is_walked(def, b, j)) continue;
                 ves_sweep_walk *here = &walk[s->walks++];
                 *here = (ves_sweep_walk){.branch = b, .second = j, .back = way};
                 here->name = walk_name(w, here);
@@ -141,14 +150,12 @@ static ves_status status_of(whole *w)
     return status;
 }
 
-/* Where the next point begins: the best of the last good one; NULL: there is none. */
-static const double *last_good(const ves_sweep *s, int walk, int ready)
+/* Where the next point begins: at the best of this one; -1: there is none. */
+static int last_good(const ves_sweep *s, int walk, int ready)
 {
-    for (int k = ready - 1; k >= 0; k--) {
-        const ves_sweep_point *point = &s->point[walk * s->count + k];
-        if (point->good) return point->column + s->first[VES_SWEEP_VARIABLE];
-    }
-    return NULL;
+    int index = walk * s->count + ready - 1;
+    while (index >= walk * s->count && !s->point[index].good) index--;
+    return index < walk * s->count ? -1 : index;
 }
 
 /* A fault of one point ends all: its message becomes one of the sweep. Under the lock. */
@@ -159,11 +166,10 @@ static void fault(whole *w, ves_status status, const ves_diag *own)
     if (status == VES_INTERRUPTED) return;
     char text[VES_QUANTITY + NAME];
     const char *why = ves_status_text(status);
-    for (int k = 0; k < ves_diag_count(own); k++)
+    for (int k = 0; k < ves_diag_count(own); k++) /* the last: those before have but lost the point */
         if (ves_diag_severity(own, k) == VES_ERROR) {
             ves_diag_text(own, k, text, sizeof text);
             why = strncmp(text, "error: ", 7) ? text : text + 7;
-            break;
         }
     ves_diag_add(w->diag, VES_ERROR, status, (ves_mark){0}, "%s", why);
 }

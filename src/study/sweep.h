@@ -42,10 +42,11 @@ typedef struct ves_sweep_point {
     bool done;
     bool good;          /* feasible, proved and converged: what the next point begins at */
     const char *reason; /* why not; NULL: good */
-    int kind;           /* of the best there was, an index in kinds; -1: none, or not known */
-    bool feasible;      /* it meets the constraints, proved or not */
-    double *column;     /* [first[VES_SWEEP_GROUPS]] SI, of the best there was; NAN: not known */
-    double slope;       /* what is left of it there (ves_kkt.slope), of the objective, SI; NAN: not known */
+    double reached; /* of a lost point: how far smaller steps followed the branch towards it; NAN: none did */
+    int kind;       /* of the best there was, an index in kinds; -1: none, or not known */
+    bool feasible;  /* it meets the constraints, proved or not */
+    double *column; /* [first[VES_SWEEP_GROUPS]] SI, of the best there was; NAN: not known */
+    double slope;   /* what is left of it there (ves_kkt.slope), of the objective, SI; NAN: not known */
     long evaluations, gradients;
     double wall; /* s */
     int notes;

@@ -8,7 +8,7 @@
 /* Ends are one when their objectives agree to a millionth, and their variables to a thousandth of the ranges, as a search
  * tells optima apart, or all their measures to a thousandth of the largest that the sweep has, or to 1e-9 of their
  * natural size: variables may be such that nothing feels them.
- * A search that was broken off has a slope left. Near one optimum the Lagrangian L is convex, so that
+ * Ends of different kinds are not one. A search that was broken off has a slope left. Near one optimum the Lagrangian L is convex, so that
  * L(a) - L(b) <= |grad L(a)| |a - b|: ends whose objectives differ by no more than that cannot be told apart; where it is
  * more than a millionth, neither can their measures. */
 static const double SAME = 1e-6, NEAR = 1e-3;
@@ -53,6 +53,7 @@ static double slope_of(const ves_sweep *s, int index)
 static bool same(const ves_sweep *s, const double *size, int i, int j)
 {
     const double *a = s->point[i].column, *b = s->point[j].column;
+    if (s->point[i].kind != s->point[j].kind) return false;
     const double f = objective(s, i), g = objective(s, j);
     const int first = s->first[VES_SWEEP_MEASURE];
     const gap apart = gap_of(s, a, b);

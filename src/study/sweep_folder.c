@@ -116,6 +116,7 @@ void ves_sweep_point_json(const ves_sweep *sweep, int index, bool compared, bool
     place_json(sweep, index, json);
     ves_json_text(json, "status", point->good ? "ok" : "lost");
     ves_json_text(json, "reason", point->reason);
+    if (sweep->def->finest > 0) ves_json_number(json, "reached", point->reached);
     if (sweep->problem->kinds) ves_json_text(json, "kind", ves_problem_kind(sweep->problem, point->kind));
     if (compared) {
         const int before = ves_sweep_turned(sweep, index);
@@ -241,6 +242,7 @@ static bool point_read(const ves_sweep *sweep, const ves_node *line, int index, 
     if (!status || !is_point(sweep, line, index)) return false;
     *point = (ves_sweep_point){.good = !strcmp(status, "ok"),
                                .feasible = ves_json_true(line, "feasible"),
+                               .reached = ves_json_double(line, "reached", NAN),
                                .kind = kind_read(sweep->problem, line)};
     if (!point->good) point->reason = kept(ves_json_word(line, "reason"), arena);
     point->column = ves_arena_take(arena, (size_t)sweep->first[VES_SWEEP_GROUPS], sizeof *point->column);

@@ -16,42 +16,53 @@ enum { SENTENCE = 400, MESSAGE = 2000 };
 /* What may be left of the slope where a budget ended: in a flat valley the last digits take for ever. */
 static const double CONVERGED = 1e-3;
 
+static const double ROUNDED = 1e-9; /* of a step */
+
 /* A point while it is searched. */
 typedef struct search {
     const ves_sweep_task *task;
     int index;
     ves_sweep_point *point;
-    const double *from;
+    double value;       /* of the first parameter: that of the point, or on the way to it */
+    const double *from; /* [variables]; NULL: where the branch begins */
     ves_arena *kept, scratch;
     ves_diag *diag; /* of this point alone */
+    int said;       /* in it, before this search */
 } search;
 
 /* --- the problem there --- */
 
-static ves_status value_set(const ves_problem *p, const ves_sweep_axis *axis, int k, ves_arena *arena,
+static ves_status value_set(const ves_problem *p, const ves_sweep_axis *axis, double value, ves_arena *arena,
                             ves_override *set)
 {
     const ves_parameter *q = &p->parameter[axis->parameter];
     char digits[32];
-    ves_text_shortest(axis->value[k], digits);
+    ves_text_shortest(value, digits);
     const char *number = ves_arena_text(arena, digits, strlen(digits));
     *set = (ves_override){axis->name, NULL};
     if (number) set->value = ves_study_quantity(number, ves_formula_dim(q->formula), &q->shown, arena);
     return set->value ? VES_OK : VES_MEMORY;
 }
 
-/* What makes the problem at a place out of the file: the branch, then the parameters. index -1: the branch alone. */
-static ves_status settings(const ves_sweep *sweep, int branch, int index, ves_arena *arena, ves_override *set,
-                           int *count)
+/* What makes the problem out of the file: a branch. */
+static void settings(const ves_sweep *sweep, int branch, ves_override *set, int *count)
 {
     const ves_sweep_def *def = sweep->def;
     *count = 0;
     if (def->branches)
         for (int k = 0; k < def->branch[branch].sets; k++) set[(*count)++] = def->branch[branch].set[k];
-    if (index < 0) return VES_OK;
-    const int at[VES_SWEEP_AXES] = {ves_sweep_place(sweep, index), sweep->walk[index / sweep->count].second};
+}
+
+/* And then the parameters. */
+static ves_status settings_here(search *s, ves_override *set, int *count)
+{
+    const ves_sweep *sweep = s->task->sweep;
+    const ves_sweep_def *def = sweep->def;
+    const ves_sweep_walk *walk = &sweep->walk[s->index / sweep->count];
+    settings(sweep, walk->branch, set, count);
+    const double value[VES_SWEEP_AXES] = {s->value, def->axes > 1 ? def->axis[1].value[walk->second] : 0};
     for (int k = 0; k < def->axes; k++)
-        VES_TRY(value_set(sweep->problem, &def->axis[k], at[k], arena, &set[(*count)++]));
+        VES_TRY(value_set(sweep->problem, &def->axis[k], value[k], &s->scratch, &set[(*count)++]));
     return VES_OK;
 }
 
@@ -140,8 +151,9 @@ ves_status ves_sweep_branch_check(const ves_sweep_task *task, int branch, ves_di
     ves_problem *problem = NULL;
     int count = 0;
     ves_override *set = ves_arena_take(&arena, (size_t)settings_most(task->sweep, branch), sizeof *set);
-    ves_status status = set ? settings(task->sweep, branch, -1, &arena, set, &count) : VES_MEMORY;
-    if (status == VES_OK)
+    ves_status status = set ? VES_OK : VES_MEMORY;
+    if (set) settings(task->sweep, branch, set, &count);
+    if (set)
         status = read(task, set, count, task->sweep->def->branch[branch].mark, &problem, diag);
     else
         ves_diag_fail(diag, status);
@@ -174,7 +186,7 @@ static ves_status read_here(search *s, ves_problem **problem)
     int count = 0;
     ves_override *set = ves_arena_take(&s->scratch, (size_t)settings_most(sweep, branch), sizeof *set);
     if (!set) return VES_MEMORY;
-    VES_TRY(settings(sweep, branch, s->index, &s->scratch, set, &count));
+    VES_TRY(settings_here(s, set, &count));
     VES_TRY(read(s->task, set, count, sweep->def->mark, problem, s->diag));
     if (!s->from) return VES_OK;
     ves_problem *first = *problem; /* whose names are set */
@@ -198,7 +210,7 @@ static ves_status lose(search *s, const char *text)
 static ves_status lose_by_diag(search *s, ves_status status)
 {
     char text[MESSAGE];
-    for (int k = 0; k < ves_diag_count(s->diag); k++) {
+    for (int k = s->said; k < ves_diag_count(s->diag); k++) {
         if (ves_diag_severity(s->diag, k) != VES_ERROR) continue;
         ves_diag_text(s->diag, k, text, sizeof text);
         return lose(s, text);
@@ -315,18 +327,25 @@ static ves_status shape_write(search *s, const ves_run *run)
     return status;
 }
 
+/* Of the point. */
+static double value_of(const search *s)
+{
+    const ves_sweep *sweep = s->task->sweep;
+    return sweep->def->axis[0].value[ves_sweep_place(sweep, s->index)];
+}
+
 static ves_status take(search *s, const ves_run *run)
 {
     if (run->ending == VES_ENDED_STOPPED) return VES_INTERRUPTED;
-    s->point->evaluations = run->evaluations;
-    s->point->gradients = run->gradients;
+    s->point->evaluations += run->evaluations;
+    s->point->gradients += run->gradients;
     VES_TRY(judge(s, run));
     VES_TRY(notes_take(s, run));
     s->point->feasible = run->any && run->best.feasible;
     s->point->slope = run->kkt.known ? run->kkt.slope : NAN;
     if (run->any) s->point->kind = run->best.kind;
     if (run->any) columns_fill(s->task->sweep, run, s->point->column);
-    return s->point->good ? shape_write(s, run) : VES_OK;
+    return s->point->good && s->value == value_of(s) ? shape_write(s, run) : VES_OK;
 }
 
 /* --- the search --- */
@@ -359,6 +378,12 @@ static ves_status find(search *s)
 {
     const int columns = s->task->sweep->first[VES_SWEEP_GROUPS];
     ves_problem *problem = NULL;
+    *s->point = (ves_sweep_point){.slope = NAN,
+                                  .reached = NAN,
+                                  .kind = -1,
+                                  .evaluations = s->point->evaluations,
+                                  .gradients = s->point->gradients};
+    s->said = ves_diag_count(s->diag);
     s->point->column = ves_arena_take(s->kept, (size_t)columns, sizeof *s->point->column);
     if (!s->point->column) return VES_MEMORY;
     for (int k = 0; k < columns; k++) s->point->column[k] = NAN;
@@ -368,14 +393,47 @@ static ves_status find(search *s)
     return status == VES_OK || is_fault(status) ? status : lose_by_diag(s, status);
 }
 
-ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, const double *from, ves_arena *arena,
+/* A point that was lost in one step from its neighbour: steps half as long, each from the end of the one before, and
+ * shorter ones where these lose the branch too. What they cost is the point's. */
+static ves_status follow(search *s, double near)
+{
+    const ves_sweep *sweep = s->task->sweep;
+    const double target = value_of(s), finest = sweep->def->finest;
+    const int first = sweep->first[VES_SWEEP_VARIABLE];
+    ves_sweep_point *point = s->point, tried = *point, kept = *point;
+    double step = (target - near) / 2, reached = near;
+    ves_status status = VES_OK;
+    for (s->point = &tried; !kept.good && status == VES_OK && fabs(step) >= finest * (1 - ROUNDED);) {
+        const bool last = fabs(target - reached) <= fabs(step) * (1 + ROUNDED);
+        s->value = last ? target : reached + step;
+        status = find(s);
+        if (last && status == VES_OK) kept = tried;
+        if (tried.good)
+            reached = s->value, s->from = tried.column + first;
+        else
+            step /= 2;
+    }
+    s->point = point;
+    *point = kept;
+    point->reached = kept.good ? NAN : reached;
+    point->evaluations = tried.evaluations;
+    point->gradients = tried.gradients;
+    return status;
+}
+
+ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, int from, ves_arena *arena,
                                 ves_diag *diag)
 {
-    search s = {.task = task, .index = index, .from = from, .kept = arena, .diag = diag};
+    const ves_sweep *sweep = task->sweep;
+    search s = {.task = task, .index = index, .kept = arena, .diag = diag};
     s.point = &task->sweep->point[index];
-    *s.point = (ves_sweep_point){.slope = NAN, .kind = -1};
+    *s.point = (ves_sweep_point){0};
+    s.value = value_of(&s);
+    if (from >= 0) s.from = sweep->point[from].column + sweep->first[VES_SWEEP_VARIABLE];
     double begin = ves_study_clock();
     ves_status status = find(&s);
+    if (status == VES_OK && !s.point->good && from >= 0 && from == index - 1 && sweep->def->finest > 0)
+        status = follow(&s, sweep->def->axis[0].value[ves_sweep_place(sweep, from)]);
     s.point->wall = ves_study_clock() - begin;
     s.point->done = status == VES_OK;
     ves_arena_destroy(&s.scratch);

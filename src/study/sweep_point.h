@@ -14,10 +14,10 @@ typedef struct ves_sweep_task {
 /* Reads the problem with what a branch sets, to tell what is wrong with it before anything is searched. */
 ves_status ves_sweep_branch_check(const ves_sweep_task *task, int branch, ves_diag *diag);
 
-/* from: [variables] where to begin, moved into the ranges; NULL: where the branch does. Keeps
+/* from: the point whose best it begins at, moved into the ranges; -1: it begins where the branch does. Keeps
  * what it finds in the arena and the shape in the folder. VES_INTERRUPTED: stopped, nothing is known. Otherwise
  * negative for faults. diag is for this point alone. */
-ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, const double *from, ves_arena *arena,
+ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, int from, ves_arena *arena,
                                 ves_diag *diag);
 
 #endif

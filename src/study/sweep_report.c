@@ -158,8 +158,9 @@ static void table_head(const ves_sweep *s, FILE *out)
     fputs(s->def->branches ? "point,walk,branch,direction" : "point,walk,direction", out);
     for (int k = 0; k < s->def->axes; k++)
         put_head(out, "", s->def->axis[k].name, p->parameter[s->def->axis[k].parameter].shown.unit);
-    fputs(p->kinds ? ",status,reason,kind,was,optimum,best,feasible" : ",status,reason,optimum,best,feasible",
-          out);
+    fputs(",status,reason", out);
+    if (s->def->finest > 0) put_head(out, "", "reached", p->parameter[s->def->axis[0].parameter].shown.unit);
+    fputs(p->kinds ? ",kind,was,optimum,best,feasible" : ",optimum,best,feasible", out);
     put_head(out, "", "objective", p->objective_shown.unit);
     fputs(",violation", out);
     for (int k = 0; k < p->measures; k++) put_head(out, "", p->measure[k].name, p->measure[k].shown.unit);
@@ -229,6 +230,8 @@ static void table_fill(const reporter *r, FILE *out)
         table_place(s, k, out);
         put(out, ",%s,", point->good ? "ok" : "lost");
         if (point->reason) put_text(out, point->reason);
+        if (s->def->finest > 0)
+            put_number(out, point->reached, s->problem->parameter[s->def->axis[0].parameter].shown.factor);
         if (s->problem->kinds) table_kind(s, k, out);
         put(out, ",%d,%s,%s", point->optimum, point->best ? "true" : "false",
             point->feasible ? "true" : "false");
