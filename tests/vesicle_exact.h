@@ -1,6 +1,6 @@
 /* The least of all axisymmetric membranes of a family, independent of patches, measures and searches of the house: the
- * meridian by its angle psi(s) = pi s + sum b_k sin(k pi s), 0 <= s <= 1, a series that converges faster than any
- * power on smooth shapes; r and z by integrating cos psi and sin psi between Gauss nodes; the least energy by
+ * meridian by its angle psi(t) = pi t + sum b_k sin(k pi t), 0 <= t <= 1, a series that converges faster than any
+ * power on smooth shapes; the arc length s(t) is t, or graded towards a neck; r and z by integrating cos psi and sin psi between Gauss nodes; the least energy by
  * sequential quadratic programming in the b_k. */
 #ifndef TESTS_VESICLE_EXACT_H
 #define TESTS_VESICLE_EXACT_H
@@ -11,23 +11,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EX_PANELS = 60, EX_GAUSS = 16, EX_NODES = EX_PANELS * EX_GAUSS, EX_MODES = 120 };
+enum { EX_PANELS = 40, EX_GAUSS = 16, EX_NODES = EX_PANELS * EX_GAUSS, EX_MODES = 130 };
 
 static const double EX_PI = 3.14159265358979323846;
 
 typedef struct exact {
     int modes;
     double c0, nu; /* reduced */
-    double s[EX_NODES], weight[EX_NODES],
+    double t[EX_NODES], stretch[EX_NODES], weight[EX_NODES],
         inner[EX_GAUSS][EX_GAUSS];                               /* of integrals from the begin of a panel */
-    double sine[EX_MODES][EX_NODES], cosine[EX_MODES][EX_NODES]; /* sin(k pi s), k pi cos(k pi s) */
+    double sine[EX_MODES][EX_NODES], cosine[EX_MODES][EX_NODES]; /* sin(k pi t), k pi cos(k pi t) */
     /* at b */
     double bound[EX_MODES];
     double psi[EX_NODES], u[EX_NODES], r[EX_NODES], rk[EX_MODES][EX_NODES];
     double energy, gap, reduced; /* E/(8 pi kappa), r(1), reduced volume */
     double dE[EX_MODES], dgap[EX_MODES], dreduced[EX_MODES];
-    double tail;                     /* the last amplitudes: how well it is resolved */
-    double M, R0, thickness, radius; /* of lengths over R0: pole to pole, the largest r */
+    double tail; /* the last amplitudes: how well it is resolved */
+    double M, R0, thickness,
+        neck; /* of lengths over R0: pole to pole, the least r between two bulges; 0: there is none */
 } exact;
 
 /* Nodes and weights of -1 .. 1, by Newton's method on the Legendre polynomial. */
@@ -63,6 +64,14 @@ static inline void exact_inner(const double x[EX_GAUSS], const double w[EX_GAUSS
         }
 }
 
+/* ds/dt = 1 + a cos pi t + b cos 2 pi t, which is even about both poles, as sines ask for; it is least at t = at. */
+static inline void exact_grade(exact *e, double at, double least)
+{
+    const double c = cos(EX_PI * at), b = (1 - least) / (1 + 2 * c * c), a = -4 * c * b;
+    for (int n = 0; n < EX_NODES; n++)
+        e->stretch[n] = 1 + a * cos(EX_PI * e->t[n]) + b * cos(2 * EX_PI * e->t[n]);
+}
+
 static inline exact *exact_create(int modes, double c0, double nu)
 {
     double x[EX_GAUSS], w[EX_GAUSS];
@@ -73,11 +82,12 @@ static inline exact *exact_create(int modes, double c0, double nu)
     exact_gauss(x, w);
     exact_inner(x, w, e);
     for (int n = 0; n < EX_NODES; n++) {
-        e->s[n] = (n / EX_GAUSS + (x[n % EX_GAUSS] + 1) / 2) / EX_PANELS;
+        e->t[n] = (n / EX_GAUSS + (x[n % EX_GAUSS] + 1) / 2) / EX_PANELS;
         e->weight[n] = w[n % EX_GAUSS] / 2 / EX_PANELS;
+        e->stretch[n] = 1;
         for (int k = 0; k < e->modes; k++) {
-            e->sine[k][n] = sin((k + 1) * EX_PI * e->s[n]);
-            e->cosine[k][n] = (k + 1) * EX_PI * cos((k + 1) * EX_PI * e->s[n]);
+            e->sine[k][n] = sin((k + 1) * EX_PI * e->t[n]);
+            e->cosine[k][n] = (k + 1) * EX_PI * cos((k + 1) * EX_PI * e->t[n]);
         }
     }
     return e;
@@ -99,24 +109,25 @@ static inline double exact_integrate(const exact *e, const double *f, double *F)
     return before;
 }
 
-/* Of unit length: A = 2 pi int r, V = pi int r^2 sin psi, and with h = u + sin psi / r, u = psi',
+/* Of unit length: A = 2 pi int r, V = pi int r^2 sin psi, and with h = u + sin psi / r, u = dpsi/ds,
  * E = (1/16 pi) (2 pi int r h^2 - 2 c0 / R0 2 pi int r h + c0^2 4 pi). */
 static inline void exact_bind(exact *e, const double *b)
 {
     double f[EX_NODES], A = 0, V = 0, I1 = 0, I2 = 0;
     for (int n = 0; n < EX_NODES; n++) {
-        e->psi[n] = EX_PI * e->s[n], e->u[n] = EX_PI;
+        e->psi[n] = EX_PI * e->t[n], e->u[n] = EX_PI;
         for (int k = 0; k < e->modes; k++)
             e->psi[n] += b[k] * e->sine[k][n], e->u[n] += b[k] * e->cosine[k][n];
-        f[n] = cos(e->psi[n]);
+        e->u[n] /= e->stretch[n];
+        f[n] = cos(e->psi[n]) * e->stretch[n];
     }
     e->gap = exact_integrate(e, f, e->r);
     for (int k = 0; k < e->modes; k++) {
-        for (int n = 0; n < EX_NODES; n++) f[n] = -sin(e->psi[n]) * e->sine[k][n];
+        for (int n = 0; n < EX_NODES; n++) f[n] = -sin(e->psi[n]) * e->sine[k][n] * e->stretch[n];
         e->dgap[k] = exact_integrate(e, f, e->rk[k]);
     }
     for (int n = 0; n < EX_NODES; n++) {
-        double w = e->weight[n], r = e->r[n], h = e->u[n] + sin(e->psi[n]) / r;
+        double w = e->weight[n] * e->stretch[n], r = e->r[n], h = e->u[n] + sin(e->psi[n]) / r;
         A += w * r, V += w * r * r * sin(e->psi[n]), I1 += w * r * h, I2 += w * r * h * h;
     }
     A *= 2 * EX_PI, V *= EX_PI, I1 *= 2 * EX_PI, I2 *= 2 * EX_PI;
@@ -124,16 +135,18 @@ static inline void exact_bind(exact *e, const double *b)
     e->energy = (I2 - 2 * e->c0 * I1 / R0 + e->c0 * e->c0 * 4 * EX_PI) / (16 * EX_PI);
     e->reduced = V / ball;
     e->M = I1 / (8 * EX_PI * R0);
-    e->thickness = e->radius = 0;
+    e->thickness = e->neck = 0;
     for (int n = 0; n < EX_NODES; n++) {
-        e->thickness += e->weight[n] * sin(e->psi[n]) / R0;
-        e->radius = fmax(e->radius, e->r[n] / R0);
+        e->thickness += e->weight[n] * e->stretch[n] * sin(e->psi[n]) / R0;
+        if (n && n + 1 < EX_NODES && e->r[n] < e->r[n - 1] && e->r[n] < e->r[n + 1]) e->neck = e->r[n] / R0;
     }
     for (int k = 0; k < e->modes; k++) {
         double dA = 0, dV = 0, d1 = 0, d2 = 0;
         for (int n = 0; n < EX_NODES; n++) {
-            double w = e->weight[n], r = e->r[n], rk = e->rk[k][n], sn = sin(e->psi[n]), cs = cos(e->psi[n]);
-            double h = e->u[n] + sn / r, hk = e->cosine[k][n] + cs * e->sine[k][n] / r - sn * rk / (r * r);
+            double w = e->weight[n] * e->stretch[n], r = e->r[n], rk = e->rk[k][n], sn = sin(e->psi[n]),
+                   cs = cos(e->psi[n]);
+            double h = e->u[n] + sn / r,
+                   hk = e->cosine[k][n] / e->stretch[n] + cs * e->sine[k][n] / r - sn * rk / (r * r);
             dA += w * rk, dV += w * (2 * r * sn * rk + r * r * cs * e->sine[k][n]);
             d1 += w * (rk * h + r * hk), d2 += w * (rk * h * h + 2 * r * h * hk);
         }
