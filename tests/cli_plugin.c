@@ -83,7 +83,8 @@ Test(cli_plugin, a_plugin_that_is_not_sound_is_refused)
     refuse_plugin(".size = sizeof(ves_measure) + 8", name, 2, "was built for a newer vesica");
     refuse_plugin(".given = sizeof(ves_measure_input) + sizeof(ves_samples) + sizeof(ves_adjoint) + 8", name,
                   2, "was built for a newer vesica");
-    refuse_plugin(".size = sizeof(ves_measure) - 8", name, 2, unsized);
+    refuse_plugin(".size = offsetof(ves_measure, gradient)", name, 2, unsized);
+    refuse_plugin(".size = offsetof(ves_measure, most)", name, 0, ""); /* an older one is taken */
     refuse_plugin(".size = 0", name, 2, unsized);
     refuse_plugin(".given = 0", name, 2, unsized);
     refuse_plugin(".measure = NULL", name, 2, "lacks its name or its list");

@@ -164,6 +164,9 @@ typedef struct ves_measure {
      * no adjoint to add to. NULL: no gradient. */
     void (*gradient)(const ves_measure_input *input, double seed, const ves_adjoint *const *adjoint,
                      double *number_adjoint);
+
+    double most;         /* no surface has more: a constraint that asks for it is refused. 0: not known */
+    const char *most_of; /* what has it: "a sphere" */
 } ves_measure;
 
 /* Members are only ever appended, to this struct and to those above, and the enums only grow; the sizes tell

@@ -122,6 +122,18 @@ static void read_solve(scope *s, const ves_node *node)
     solve->right = r.right;
 }
 
+/* The measure that is one side of a relation, text[from .. to), by itself; -1: it is something else. */
+static int measure_alone(const ves_reader *reader, const char *text, int from, int to)
+{
+    while (from < to && text[from] == ' ') from++;
+    while (to > from && text[to - 1] == ' ') to--;
+    for (int k = 0; k < reader->measures_read; k++) {
+        const char *name = reader->measure[k].name;
+        if (strlen(name) == (size_t)(to - from) && !strncmp(text + from, name, (size_t)(to - from))) return k;
+    }
+    return -1;
+}
+
 /* MEASURE == formula of slots: similarity turns it into one power. */
 static void read_scale(scope *s, const ves_node *node)
 {
@@ -133,17 +145,9 @@ static void read_scale(scope *s, const ves_node *node)
         return;
     const ves_node *equation = ves_fields_find(&f, "equation");
     if (!equation || !read_equation(s, equation, &r)) return;
-    int begin = 0, end = r.left_part.to, measure = -1;
-    while (begin < end && equation->text[begin] == ' ') begin++;
-    while (end > begin && equation->text[end - 1] == ' ') end--;
-    for (int k = 0; k < reader->measures_read; k++) {
-        const char *name = reader->measure[k].name;
-        if (strlen(name) == (size_t)(end - begin) &&
-            !strncmp(equation->text + begin, name, (size_t)(end - begin)))
-            measure = k;
-        if (ves_formula_uses_argument(r.right, k)) measure = -2;
-        if (measure == -2) break;
-    }
+    int measure = measure_alone(reader, equation->text, 0, r.left_part.to);
+    for (int k = 0; k < reader->measures_read; k++)
+        if (ves_formula_uses_argument(r.right, k)) measure = -1;
     if (measure < 0) {
         ves_reader_error(reader, VES_SYNTAX, equation,
                          "scale needs MEASURE == formula of variables and parameters, as in area == 4*pi");
@@ -191,6 +195,18 @@ static void read_objective(scope *s, const ves_fields *root)
         ves_reader_error(s->reader, VES_RANGE, node, "the objective depends on no measure and no variable");
 }
 
+/* A measure alone on the left that must have more than any surface has. */
+static void check_possible(scope *s, const ves_node *node, const relation *r)
+{
+    const int k = measure_alone(s->reader, node->text, 0, r->left_part.to);
+    const ves_measure *measure = k < 0 ? NULL : s->reader->measure[k].measure;
+    if (!measure || measure->most == 0 || *r->op == '<' || depends(s, r->right)) return;
+    const double asked = ves_reader_value(s->reader, r->right);
+    if (asked > measure->most)
+        ves_reader_error(s->reader, VES_RANGE, node, "\"%s\" cannot exceed %g (%s), and %.9g is asked for",
+                         s->reader->measure[k].name, measure->most, measure->most_of, asked);
+}
+
 static void read_constraint(scope *s, const ves_node *item, ves_constraint_def *out)
 {
     ves_reader *reader = s->reader;
@@ -216,6 +232,8 @@ static void read_constraint(scope *s, const ves_node *item, ves_constraint_def *
                          r.op, r.op);
     else if (!depends(s, r.left) && !depends(s, r.right))
         ves_reader_error(reader, VES_RANGE, node, "this constraint depends on no measure and no variable");
+    else
+        check_possible(s, node, &r);
 }
 
 static void read_constraints(scope *s, const ves_node *list)

@@ -35,4 +35,6 @@ const ves_measure ves_measure_reduced_volume = {
     .cap = VES_X | VES_XV,
     .closed = true,
     .eval = eval,
-    .gradient = gradient};
+    .gradient = gradient,
+    .most = 1,
+    .most_of = "a sphere"};
