@@ -238,9 +238,10 @@ Test(cli_bench, every_suite_that_is_shipped_runs)
     }
     closedir(folder);
     cr_expect(count >= 4, "%d suites", count);
-    expect(vesica(NULL, "bench " VESICA_SOURCE "/bench/suites/shapes.yaml --set seeds=2 --set "
-                        "budget.most=1500 --no-files"),
-           0, "Within ", NULL, "shapes");
+    write_file("s.yaml",
+               "vesica: 1\nsuite: pot\nproblems: [{file: " VESICA_SOURCE "/problems/pot.yaml}]\nseeds: 2\n"
+               "budget: {per_dimension: 50}\nmethods: {auto: {search: auto}}\n");
+    expect(vesica(NULL, "bench s.yaml --no-files"), 0, "first by auto, run 0; auto 2 times", NULL, "pot");
     root_remove();
 }
 
