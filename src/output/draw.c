@@ -138,6 +138,7 @@ static void piece_draw(const sheet *s, const ves_piece *p)
 
 static void shape(const sheet *s, const ves_scene *scene)
 {
+    cairo_set_antialias(s->cairo, CAIRO_ANTIALIAS_FAST);
     cairo_set_line_cap(s->cairo, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(s->cairo, CAIRO_LINE_JOIN_ROUND);
     for (int k = 0; k < scene->pieces; k++) piece_draw(s, &scene->piece[k]);

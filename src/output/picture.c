@@ -4,7 +4,7 @@
 
 enum { WIDTH = 960, HEIGHT = 720, LEAST = 64, MOST = 16384 };
 
-static const double cell_pixels = 4; /* pieces of a PNG: small enough to look smooth */
+static const double cell_pixels = 6; /* pieces of a PNG: small enough to look smooth */
 
 ves_view ves_view_default(void)
 {

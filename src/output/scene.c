@@ -201,6 +201,7 @@ static void piece_add(const maker *m, int i, int j, int a, int b)
         ves_cross(one, two, normal);
         normalise(normal);
     }
+    if (m->closed && turned_away(m, middle, normal)) return;
     ves_rgb base = m->plane ? ves_colour_value(&scene->colours, blend(m, m->plane, i, j, fu, fv)) : m->base;
     ves_rgb colour = surface_colour(m, middle, normal, base);
     piece->r = (float)colour.r, piece->g = (float)colour.g, piece->b = (float)colour.b;
