@@ -17,7 +17,9 @@ static const double EX_PI = 3.14159265358979323846;
 
 typedef struct exact {
     int modes;
-    double c0, nu; /* reduced */
+    double c0, nu;    /* reduced */
+    double m;         /* the area difference that is asked for; NAN: any */
+    double alpha, m0; /* or what another one than m0 costs: pi alpha (M - m0)^2 of 8 pi kappa */
     double t[EX_NODES], stretch[EX_NODES], weight[EX_NODES],
         inner[EX_GAUSS][EX_GAUSS];                               /* of integrals from the begin of a panel */
     double sine[EX_MODES][EX_NODES], cosine[EX_MODES][EX_NODES]; /* sin(k pi t), k pi cos(k pi t) */
@@ -25,7 +27,7 @@ typedef struct exact {
     double bound[EX_MODES];
     double psi[EX_NODES], u[EX_NODES], r[EX_NODES], rk[EX_MODES][EX_NODES];
     double energy, gap, reduced; /* E/(8 pi kappa), r(1), reduced volume */
-    double dE[EX_MODES], dgap[EX_MODES], dreduced[EX_MODES];
+    double dE[EX_MODES], dgap[EX_MODES], dreduced[EX_MODES], dM[EX_MODES];
     double tail; /* the last amplitudes: how well it is resolved */
     double M, R0, thickness,
         neck; /* of lengths over R0: pole to pole, the least r between two bulges; 0: there is none */
@@ -77,7 +79,7 @@ static inline exact *exact_create(int modes, double c0, double nu)
     double x[EX_GAUSS], w[EX_GAUSS];
     exact *e = calloc(1, sizeof *e);
     cr_assert(e != NULL);
-    e->bound[0] = NAN;
+    e->bound[0] = e->m = NAN;
     e->modes = modes, e->c0 = c0, e->nu = nu;
     exact_gauss(x, w);
     exact_inner(x, w, e);
@@ -135,6 +137,7 @@ static inline void exact_bind(exact *e, const double *b)
     e->energy = (I2 - 2 * e->c0 * I1 / R0 + e->c0 * e->c0 * 4 * EX_PI) / (16 * EX_PI);
     e->reduced = V / ball;
     e->M = I1 / (8 * EX_PI * R0);
+    e->energy += EX_PI * e->alpha * (e->M - e->m0) * (e->M - e->m0);
     e->thickness = e->neck = 0;
     for (int n = 0; n < EX_NODES; n++) {
         e->thickness += e->weight[n] * e->stretch[n] * sin(e->psi[n]) / R0;
@@ -153,6 +156,8 @@ static inline void exact_bind(exact *e, const double *b)
         dA *= 2 * EX_PI, dV *= EX_PI, d1 *= 2 * EX_PI, d2 *= 2 * EX_PI;
         double dR0 = dA / (8 * EX_PI * R0);
         e->dE[k] = (d2 - 2 * e->c0 * (d1 / R0 - I1 / (R0 * R0) * dR0)) / (16 * EX_PI);
+        e->dM[k] = d1 / (8 * EX_PI * R0) - e->M / R0 * dR0;
+        e->dE[k] += 2 * EX_PI * e->alpha * (e->M - e->m0) * e->dM[k];
         e->dreduced[k] = dV / ball - 3 * e->reduced / R0 * dR0;
     }
 }
@@ -186,23 +191,24 @@ enum { EX_WEIGHT = 30 }; /* of the equations: closed, of that volume */
 static void exact_equations(unsigned m, double *value, unsigned n, const double *y, double *slope, void *data)
 {
     exact *e = data;
-    (void)m;
     exact_at(e, y);
     value[0] = EX_WEIGHT * e->gap, value[1] = EX_WEIGHT * (e->reduced - e->nu);
+    if (m > 2) value[2] = EX_WEIGHT * (e->M - e->m);
     for (unsigned k = 0; slope && k < n; k++) {
         slope[k] = EX_WEIGHT * e->dgap[k] * exact_unit((int)k);
         slope[n + k] = EX_WEIGHT * e->dreduced[k] * exact_unit((int)k);
+        if (m > 2) slope[2 * n + k] = EX_WEIGHT * e->dM[k] * exact_unit((int)k);
     }
 }
 
 /* From the shape b[modes], which becomes the best. */
 static inline void exact_solve(exact *e, double *b)
 {
-    double y[EX_MODES], value, tolerance[2] = {1e-12, 1e-12};
+    double y[EX_MODES], value, tolerance[3] = {1e-12, 1e-12, 1e-12};
     for (int k = 0; k < e->modes; k++) y[k] = b[k] / exact_unit(k);
     nlopt_opt opt = nlopt_create(NLOPT_LD_SLSQP, (unsigned)e->modes);
     nlopt_set_min_objective(opt, exact_energy, e);
-    nlopt_add_equality_mconstraint(opt, 2, exact_equations, e, tolerance);
+    nlopt_add_equality_mconstraint(opt, isnan(e->m) ? 2 : 3, exact_equations, e, tolerance);
     nlopt_set_ftol_rel(opt, 1e-15);
     nlopt_set_maxeval(opt, 2000);
     nlopt_result result = nlopt_optimize(opt, y, &value);
