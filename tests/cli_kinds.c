@@ -149,15 +149,20 @@ Test(cli_kinds, smaller_steps_follow_a_branch_to_its_end)
 Test(cli_kinds, a_branch_has_its_values_of_the_second_parameter)
 {
     root_make();
-    write_file(
-        "w.yaml",
-        WELL(SIDES) "sweep:\n  over: {t: [0, 0.5], k: [1, 2, 3]}\n"
-                    "  branches: {right: {set: {x: 1.2}, at: [1, 3]}, left: {set: {x: -1.2}, at: 2}}\n");
+    write_file("w.yaml", WELL(SIDES) "sweep:\n  over: {t: [0, 0.5], k: [1, 2, 3]}\n"
+                                     "  branches: {right: {set: {x: 1.2}, at: {k: [1, 3]}}, left: {set: {x: "
+                                     "-1.2}, at: {k: 2}}}\n");
     outcome o = vesica(NULL, "sweep w.yaml --out w");
     cr_expect(strstr(o.out, "  right, k = 1 ") && strstr(o.out, "  right, k = 3 ") &&
                   strstr(o.out, "  left, k = 2 ") && strstr(o.out, "right, k = 2") == NULL,
               "%s", o.out);
     cr_expect(strstr(o.err, ": 6 points in 3 walks") != NULL, "%s", o.err);
     done(&o);
+    expect(vesica(NULL, "sweep w.yaml --over t=0,0.5 --over k=2 --out k2"), 0, "  left, k = 2 ",
+           "warning: branch \"right\" is not walked: no value is one that `at` names", "k = 2");
+    expect(vesica(NULL, "sweep w.yaml --over t=0,0.5 --set k=3 --out k3"), 0, "  right ",
+           "warning: branch \"left\" is not walked", "k is no axis");
+    expect(vesica(NULL, "sweep w.yaml --over t=0,0.5 --over k=7 --out k7"), 2, NULL,
+           "no branch is walked at these values", "none");
     root_remove();
 }

@@ -220,7 +220,7 @@ typedef struct ves_sweep_branch {
     int sets;
     const ves_override *set;
     int kind;          /* that of all its points, the others are lost; -1: any */
-    ves_sweep_axis at; /* the values of the second parameter where it is walked; count 0: all */
+    const bool *skips; /* [values of the second parameter, or 1] it is not walked there; NULL: everywhere */
 } ves_sweep_branch;
 
 typedef struct ves_sweep_def {

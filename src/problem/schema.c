@@ -297,10 +297,14 @@ static const ves_entry kind[] = {
     {{"kind", KIND(VES_CHECK), .about = "a formula of measures, variables and parameters that tells the designs of this name"}, "oblate: width > 1.05*depth", NULL},
     END};
 
+static const ves_entry branch_at[] = {
+    {{"where", KIND(VES_SWEPT), .about = "a value of the parameter, or a list of them"}, "c0: [0, 3]", NULL},
+    END};
+
 static const ves_entry branch_keys[] = {
     {{"set", KIND(VES_NAMED), .about = "changes of the file, as --set makes them"}, "set: {zn: 0.4, R: 1.3}", branch_setting},
     {{"kind", VES_TEXT, .about = "one of `kinds`, the kind of all designs of the branch: a point that ends at another is lost, and the next one begins at the last that was of it. Unless given, any"}, "kind: oblate", NULL},
-    {{"at", KIND(VES_SWEPT), .about = "the values of the second parameter at which the branch is walked; unless given, all"}, "at: [0]", NULL},
+    {{"at", KIND(VES_NAMED), .about = "values of a parameter, of the second one that is swept or of one that is not, where the branch is walked; unless given, everywhere"}, "at: {c0: [0, 3]}", branch_at},
     END};
 
 static const ves_entry branch[] = {

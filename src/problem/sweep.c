@@ -218,28 +218,39 @@ static bool swept(const ves_sweep_def *sweep, const char *name)
     return false;
 }
 
-/* Some of the values that the second parameter has. */
-static void at_read(axes *a, const ves_node *node, ves_sweep_axis *at)
+/* {c0: [0, 3]}: values of a parameter. The second one that is swept: at these of its values; one that is not swept: if it
+ * has one of them. */
+static void at_read(axes *a, const ves_node *node, ves_sweep_branch *branch)
 {
-    const ves_sweep_axis *axis = &a->sweep->axis[1];
-    const int before = a->reader->errors;
-    if (a->sweep->axes < 2) {
-        ves_reader_error(a->reader, VES_SYNTAX, node,
-                         "\"at\" is about the second parameter, and this sweep has but one");
+    ves_reader *reader = a->reader;
+    const ves_sweep_def *sweep = a->sweep;
+    if (node->kind != VES_NODE_MAP || node->count != 1) {
+        ves_reader_error(reader, VES_SYNTAX, node, "\"at\" must be a mapping of one parameter, {c0: [0, 3]}");
         return;
     }
-    const ves_formula *formula =
-        axis->parameter < 0 ? NULL : a->reader->problem->parameter[axis->parameter].formula;
+    const int before = reader->errors, parameter = parameter_find(a, node->key[0]);
+    const ves_formula *formula = parameter < 0 ? NULL : reader->problem->parameter[parameter].formula;
     if (!formula) return;
-    *at = (ves_sweep_axis){.name = axis->name, .parameter = axis->parameter};
-    list_read(a, node, at, ves_formula_dim(formula));
-    for (int k = 0; a->reader->errors == before && k < at->count; k++) {
-        int other = axis->count - 1;
-        while (other >= 0 && axis->value[other] != at->value[k]) other--;
-        if (other < 0)
-            ves_reader_error(a->reader, VES_RANGE, node,
-                             "%g is not among the values of \"%s\" that are swept", at->value[k], axis->name);
+    ves_sweep_axis at = {.name = node->key[0]->text, .parameter = parameter};
+    if (sweep->axes && sweep->axis[0].parameter == parameter) {
+        ves_reader_error(reader, VES_RANGE, node->key[0],
+                         "\"%s\" is walked along: a branch says by its `kind` where it is lost", at.name);
+        return;
     }
+    list_read(a, node->item[0], &at, ves_formula_dim(formula));
+    if (reader->errors > before) return;
+    const bool second = sweep->axes > 1 && sweep->axis[1].parameter == parameter;
+    const double own = ves_reader_value(reader, formula);
+    const double *value = second ? sweep->axis[1].value : &own;
+    bool *skips = ves_arena_take(reader->arena, (size_t)(second ? sweep->axis[1].count : 1), sizeof *skips);
+    if (!ves_reader_memory(reader, skips)) return;
+    bool any = false;
+    for (int j = 0; j < (second ? sweep->axis[1].count : 1); j++) {
+        skips[j] = true;
+        for (int k = 0; k < at.count; k++) skips[j] = skips[j] && value[j] != at.value[k];
+        any = any || !skips[j];
+    }
+    branch->skips = second || !any ? skips : NULL;
 }
 
 static void branch_read(axes *a, const ves_named *named, ves_sweep_branch *branch)
@@ -252,7 +263,7 @@ static void branch_read(axes *a, const ves_named *named, ves_sweep_branch *branc
     const ves_named *found = kind ? ves_names_ask(a->reader, &a->reader->kinds, kind) : NULL;
     if (found) branch->kind = found->index;
     const ves_node *at = ves_fields_find(&f, "at");
-    if (at) at_read(a, at, &branch->at);
+    if (at) at_read(a, at, branch);
     if (!set) return;
     branch->set = ves_reader_overrides(a->reader, set, &branch->sets);
     for (int k = 0; set->kind == VES_NODE_MAP && k < set->count; k++)

@@ -83,13 +83,10 @@ static const char *walk_name(whole *w, const ves_sweep_walk *walk)
     return ves_arena_format(&w->arena, "%.100s%s%s%s%s", part[0], gap[0], part[1], gap[1], part[2]);
 }
 
-/* Is the branch walked at this value of the second parameter? */
 static bool is_walked(const ves_sweep_def *def, int branch, int second)
 {
-    const ves_sweep_axis *at = def->branches ? &def->branch[branch].at : NULL;
-    bool walked = !at || !at->count;
-    for (int k = 0; !walked && k < at->count; k++) walked = at->value[k] == def->axis[1].value[second];
-    return walked;
+    const bool *skips = def->branches ? def->branch[branch].skips : NULL;
+    return !skips || !skips[second];
 }
 
 static ves_status walks_make(whole *w)
@@ -105,16 +102,20 @@ static ves_status walks_make(whole *w)
     ves_sweep_walk *walk = ves_arena_take(&w->arena, (size_t)(branches * seconds * ways), sizeof *walk);
     if (!walk) return ves_diag_fail(w->diag, VES_MEMORY);
     s->walk = walk;
-    for (int b = 0; b < branches; b++)
+    for (int b = 0; b < branches; b++) {
+        const int before = s->walks;
         for (int j = 0; j < seconds; j++)
-            for (int way = 0; way < 2; way++) {
-                if (!(way ? def->back : def->forth) || !is_walked(def, b, j)) continue;
-                ves_sweep_walk *here = &walk[s->walks++];
-                *here = (ves_sweep_walk){.branch = b, .second = j, .back = way};
-                here->name = walk_name(w, here);
-                if (!here->name) return ves_diag_fail(w->diag, VES_MEMORY);
-            }
-    return VES_OK;
+            for (int way = 0; way < 2; way++)
+                if ((way ? def->back : def->forth) && is_walked(def, b, j))
+                    walk[s->walks++] = (ves_sweep_walk){.branch = b, .second = j, .back = way};
+        if (s->walks == before)
+            ves_diag_add(w->diag, VES_WARNING, VES_OK, def->branch[b].mark,
+                         "branch \"%s\" is not walked: no value is one that `at` names", def->branch[b].name);
+    }
+    for (int k = 0; k < s->walks; k++)
+        if (!(walk[k].name = walk_name(w, &walk[k]))) return ves_diag_fail(w->diag, VES_MEMORY);
+    if (s->walks) return VES_OK;
+    return ves_diag_add(w->diag, VES_ERROR, VES_RANGE, def->mark, "no branch is walked at these values");
 }
 
 static ves_status room_make(whole *w)
