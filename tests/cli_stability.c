@@ -3,14 +3,17 @@
 
 #include "program.h"
 
-#define BALL(formula)                                                                                        \
+#define BALL(formula, c0)                                                                                    \
     "vesica: 1\nparameters: {c: 1}\npatches:\n  ball: {surface: {formula: " formula                          \
     "}, domain: {u: [0, pi]}}\n"                                                                             \
-    "shape: {closed: true}\nquadrature: {u: 16, v: 8}\nmeasures:\n  E: {canham: {reduced_c0: c}}\n"
-#define ROUND BALL("[\"sin(u)*cos(v)\", \"sin(u)*sin(v)\", \"cos(u)\"]")
+    "shape: {closed: true}\nquadrature: {u: 16, v: 8}\nmeasures:\n  E: {canham: {" c0 ": c}}\n"
+#define SPHERE "[\"sin(u)*cos(v)\", \"sin(u)*sin(v)\", \"cos(u)\"]"
+#define ROUND  BALL(SPHERE, "reduced_c0")
+#define SIZED  BALL(SPHERE, "c0")
 
 static const char sphere[] = ROUND "minimize: E/(8*pi)\nscale: {equation: area == 4*pi}\n";
-static const char oval[] = BALL("[\"1.2*sin(u)*cos(v)\", \"sin(u)*sin(v)\", \"cos(u)\"]") "minimize: E\n";
+static const char oval[] =
+    BALL("[\"1.2*sin(u)*cos(v)\", \"sin(u)*sin(v)\", \"cos(u)\"]", "c0") "minimize: E\n";
 static const char idle[] = ROUND "constraints: [area <= 20]\n";
 static const char pole[] =
     "vesica: 1\npatches:\n  ring: {surface: {formula: [\"(2+cos(2*pi*u))*cos(v)\", "
@@ -44,6 +47,21 @@ Test(cli_stability, what_it_prints_and_its_exit_code)
     expect(vesica(NULL, "stability sphere.yaml --modes 13"), 2, NULL, "--modes needs", "13");
     expect(vesica(NULL, "stability sphere.yaml --functions 5"), 2, NULL, "--functions needs", "5");
     expect(vesica(NULL, "stability"), 2, NULL, "something is missing", "nothing");
+    write_file("held.yaml", SIZED "minimize: E/(8*pi)\nconstraints: [\"area >= 4*pi\"]\n");
+    expect(vesica(NULL, "stability held.yaml --set c=7 --modes 2"), 1, "held        area >= 4*pi", NULL,
+           "pushes"); /* (l - 1)(l + 2)(l (l + 1) - c)/(8 pi), l = 2 */
+    expect(vesica(NULL, "stability held.yaml --set c=7 --modes 2"), 1, " with -0.1592 +- ", NULL, "pushes");
+    write_file("loose.yaml", SIZED "minimize: E/(8*pi)\nconstraints: [\"area <= 4*pi\"]\n");
+    expect(vesica(NULL, "stability loose.yaml --set c=7 --modes 0"), 1,
+           "  verdict     unknown: only at a stationary shape do eigenvalues tell", NULL, "does not push");
+    write_file(
+        "many.yaml", ROUND
+        "scale: {equation: area == 4*pi}\nminimize: E/(8*pi)\nconstraints: [volume >= 0, "
+        "\"volume == 4*pi/3\", \"2*volume == 8*pi/3\", \"3*volume == 4*pi\", \"4*volume == 16*pi/3\", "
+        "\"5*volume == 20*pi/3\", \"6*volume == 8*pi\", \"7*volume == 28*pi/3\", \"8*volume == 32*pi/3\"]\n");
+    outcome o = vesica(NULL, "stability many.yaml --modes 0");
+    cr_expect(strstr(o.out, " and 1 more\n  functions ") != NULL, "%s%s", o.out, o.err);
+    done(&o);
     root_remove();
 }
 
@@ -86,5 +104,6 @@ Test(cli_stability, runs_their_optima_and_points_of_sweeps)
     cr_expect(part.code == 0, "%s%s", part.out, part.err);
     done(&whole), done(&part);
     expect(vesica(NULL, "stability s:7"), 2, NULL, "there is no point 7", "s:7");
+    expect(vesica(NULL, "stability s"), 2, NULL, "\"s\" is a sweep: name one of its points, s:17", "s");
     root_remove();
 }

@@ -249,6 +249,28 @@ static const char LOPSIDED[] =
     "-1.1], normal: [0.3, 0.1, 1], w: 0.8, range: 0.4}}\n  M: {area_difference: {}}\n"
     "minimize: E + 0.3*D*M + W\nconstraints: [reduced_volume == 0.8, area <= 99, volume*area == 30]\n";
 
+/* In the variables of the file: x^2 + 2 y^2 + z with z == 3 x^2 - y^2 is 4 x^2 + y^2 where the equation holds. Units are the
+ * ranges, 20. */
+Test(stability, the_variables_have_a_hessian_of_their_own)
+{
+    static const char text[] =
+        "vesica: 1\nvariables: {x: [-10, 0, 10], y: [-10, 0, 10], z: [-10, 0, 10]}\n"
+        "patches:\n  ball: {surface: {formula: [\"sin(u)*cos(v)\", \"sin(u)*sin(v)\", \"cos(u)\"]}, domain: "
+        "{u: [0, "
+        "pi]}}\nshape: {closed: true}\nquadrature: {u: 16, v: 8}\nminimize: x^2 + 2*y^2 + z + willmore\n"
+        "constraints: [\"z == 3*x^2 - y^2\"]\n";
+    ves_problem *problem = NULL;
+    ves_stability found;
+    const ves_stability_options options = {.counted = true, .modes = 0, .functions = 12};
+    cr_assert(ves_problem_read_text("v.yaml", text, strlen(text), NULL, &problem, NULL) == VES_OK);
+    cr_assert(ves_stability_find(problem, &options, &found, NULL) == VES_OK);
+    cr_expect(found.values == 2 && fabs(found.own[0] / (2 * 400.) - 1) < 1e-6 &&
+                  fabs(found.own[1] / (8 * 400.) - 1) < 1e-6,
+              "%d: %g %g", found.values, found.own[0], found.own[1]);
+    cr_expect(found.own_along[0] == 1 && found.own_along[1] == 0 && found.flat == 0);
+    ves_problem_destroy(problem);
+}
+
 Test(stability, first_variations_of_every_measure_are_exact)
 {
     ves_problem *problem = read(LOPSIDED);

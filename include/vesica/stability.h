@@ -4,7 +4,7 @@
  *
  * For closed surfaces of revolution and any objective and constraints made of measures that have gradients and read the
  * surface alone. The surface X is displaced by w(s) cos(n v) D(s, v), s the arc length of the meridian, w a sum of
- * Legendre functions of pi s / L, D a smooth field across the surface; first variations are the exact gradients of the
+ * Legendre functions of S, which runs from 0 to pi, half by the arc length and half by how far the meridian turns, D a smooth field across the surface; first variations are the exact gradients of the
  * measures, the second one their central differences. First w of n = 0 leads from the design, which is the best of few
  * variables, to the stationary shape beside it (Newton's method); eigenvalues are those of the Lagrangian there,
  *     objective - sum of multiplier times constraint,
@@ -41,14 +41,15 @@ typedef struct ves_stability_options {
     int functions; /* of the arc length, 6 .. VES_STABILITY_FUNCTIONS; 0: chosen */
 } ves_stability_options;
 
-/* By the lowest eigenvalue: above its error, within it, below minus it. */
-typedef enum ves_firmness { VES_FIRM, VES_SOFT, VES_UNSTABLE } ves_firmness;
+/* By the lowest eigenvalue: above its error, within it, below minus it. Unknown: there is no stationary shape near the
+ * design, and what the eigenvalues of the others say nobody can tell. */
+typedef enum ves_firmness { VES_FIRM, VES_SOFT, VES_UNSTABLE, VES_UNKNOWN } ves_firmness;
 
 /* The lowest eigenvalues of one n. */
 typedef struct ves_firmness_mode {
     int n, values;
     double value[VES_STABILITY_VALUES]; /* ascending */
-    double error[VES_STABILITY_VALUES]; /* what a third fewer functions change, and what differences leave */
+    double error[VES_STABILITY_VALUES]; /* what fewer functions on a coarser grid change, and what differences leave */
     double parity
         [VES_STABILITY_VALUES]; /* +1: the amplitude is the same on both halves of the meridian, -1: opposite */
     ves_firmness firmness;

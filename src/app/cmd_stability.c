@@ -73,11 +73,13 @@ static const char *parity_text(double parity)
     return parity > PURE ? "symmetric" : parity < -PURE ? "antisymmetric" : "";
 }
 
-static void table_print(const ves_stability *s, FILE *out)
+/* In the unit of the objective. */
+static void table_print(const ves_problem *p, const ves_stability *s, FILE *out)
 {
+    const ves_shown *shown = &p->objective_shown;
     app_table t = {.align = "rrlrrrl"};
     app_table_cell(&t, "n");
-    app_table_cell(&t, "lowest");
+    app_table_cell(&t, *shown->unit ? "lowest [%s]" : "lowest", shown->unit);
     app_table_cell(&t, "%s", "");
     app_table_cell(&t, "+-");
     app_table_cell(&t, "second");
@@ -86,12 +88,12 @@ static void table_print(const ves_stability *s, FILE *out)
     for (int k = 0; k < s->modes; k++) {
         const ves_firmness_mode *m = &s->mode[k];
         app_table_cell(&t, "%d", m->n);
-        app_table_cell(&t, "%.5g", m->value[0]);
+        app_table_cell(&t, "%.5g", m->value[0] / shown->factor);
         app_table_cell(&t, "%s", parity_text(m->parity[0]));
-        app_table_cell(&t, "%.1g", m->error[0]);
+        app_table_cell(&t, "%.1g", m->error[0] / shown->factor);
         for (int j = 1; j < 3; j++)
             if (j < m->values)
-                app_table_cell(&t, "%.5g", m->value[j]);
+                app_table_cell(&t, "%.5g", m->value[j] / shown->factor);
             else
                 app_table_cell(&t, " ");
         app_table_cell(&t, "%s", ves_firmness_text(m->firmness));
@@ -112,28 +114,55 @@ static void own_print(const ves_problem *p, const ves_stability *s, FILE *out)
     fputs("\n", out);
 }
 
-static void screen(const ves_problem *p, const ves_stability *s, FILE *out)
+static void stationary_print(const ves_problem *p, const ves_stability *s, FILE *out)
 {
-    const ves_firmness_mode *soft = &s->mode[s->softest];
-    fprintf(out, "%s  %s\n\n", p->name, p->title);
-    table_print(s, out);
-    fprintf(out, "\n");
+    const double factor = p->objective_shown.factor;
     if (s->relaxed)
         fprintf(out, "  stationary  %.9g; the design lies %.2g above it, a displacement of %.2g R0 away\n",
-                s->stationary, s->objective - s->stationary, s->moved);
+                s->stationary / factor, (s->objective - s->stationary) / factor, s->moved);
     else
         fprintf(out,
                 "  stationary  no stationary shape near the design, whose slope is %.2g: eigenvalues at the "
                 "design\n",
-                s->slope);
-    if (s->held) fprintf(out, "  held        ");
-    for (int k = 0; k < s->held && k < VES_STABILITY_HOLDS; k++)
-        fprintf(out, "%s%s", s->holds[k], k + 1 < s->held ? ", " : "\n");
+                s->slope / factor);
+}
+
+static void held_print(const ves_stability *s, FILE *out)
+{
+    const int shown = s->held < VES_STABILITY_HOLDS ? s->held : VES_STABILITY_HOLDS;
+    if (!s->held) return;
+    fputs("  held        ", out);
+    for (int k = 0; k < shown; k++) fprintf(out, "%s%s", k ? ", " : "", s->holds[k]);
+    if (s->held > shown) fprintf(out, " and %d more", s->held - shown);
+    fputs("\n", out);
+}
+
+static void verdict_print(const ves_problem *p, const ves_stability *s, FILE *out)
+{
+    const ves_firmness_mode *soft = &s->mode[s->softest];
+    const double factor = p->objective_shown.factor;
+    fprintf(out, "  verdict     %s: ", ves_firmness_text(s->firmness));
+    if (s->firmness == VES_UNKNOWN)
+        fputs("only at a stationary shape do eigenvalues tell; has the run converged, and does its branch "
+              "still "
+              "exist?\n",
+              out);
+    else
+        fprintf(out, "the softest mode is n = %d, with %.4g +- %.1g\n", soft->n, soft->value[0] / factor,
+                soft->error[0] / factor);
+}
+
+static void screen(const ves_problem *p, const ves_stability *s, FILE *out)
+{
+    fprintf(out, "%s\n\n", *p->title ? p->title : p->name);
+    table_print(p, s, out);
+    fputs("\n", out);
+    stationary_print(p, s, out);
+    held_print(s, out);
     fprintf(out, "  functions   %d of the meridian, %d x %d nodes a patch\n", s->functions, s->quadrature[0],
             s->quadrature[1]);
     if (s->values || s->flat) own_print(p, s, out);
-    fprintf(out, "  verdict     %s: the softest mode is n = %d, with %.4g +- %.1g\n",
-            ves_firmness_text(s->firmness), soft->n, soft->value[0], soft->error[0]);
+    verdict_print(p, s, out);
 }
 
 int app_stability(app *a)
@@ -152,7 +181,7 @@ int app_stability(app *a)
             json_print(opened.problem, &found);
         else
             screen(opened.problem, &found, stdout);
-        code = found.firmness == VES_UNSTABLE ? APP_UNMET : APP_DONE;
+        code = found.firmness >= VES_UNSTABLE ? APP_UNMET : APP_DONE;
     }
     ves_study_close(&opened);
     return code;

@@ -41,7 +41,7 @@ const app_command app_commands[] = {
      "Closed surfaces of revolution. docs/stability.md tells what the eigenvalues are. Exit code: 0 when "
      "none is "
      "negative\n"
-     "beyond its error, 1 when one is."},
+     "beyond its error, 1 when one is or nobody can tell."},
     {"journal", "journal RUN", "all evaluations of a run, one a line", 1, 1, "to|png", app_journal,
      "In SI units, as in result.json, with the sign of the goal. A constraint's column says by how much it "
      "is missed,\n"

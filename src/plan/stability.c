@@ -29,7 +29,7 @@ typedef struct work {
 
 const char *ves_firmness_text(ves_firmness firmness)
 {
-    static const char *const text[] = {"stable", "soft", "unstable"};
+    static const char *const text[] = {"stable", "soft", "unstable", "unknown"};
     return text[firmness];
 }
 
@@ -350,7 +350,8 @@ static void compare(const ves_stability *coarse, ves_stability *out)
     for (int n = 0; n < out->modes; n++) {
         ves_firmness_mode *m = &out->mode[n];
         for (int k = 0; k < m->values; k++) m->error[k] += fabs(m->value[k] - coarse->mode[n].value[k]);
-        m->firmness = m->value[0] > m->error[0]    ? VES_FIRM
+        m->firmness = !out->relaxed                ? VES_UNKNOWN
+                      : m->value[0] > m->error[0]  ? VES_FIRM
                       : m->value[0] < -m->error[0] ? VES_UNSTABLE
                                                    : VES_SOFT;
         if (m->value[0] < out->mode[out->softest].value[0]) out->softest = n;

@@ -30,6 +30,12 @@ static ves_status result_read(const char *run, ves_arena *arena, const ves_node 
 {
     char *path = ves_folder_path(run, "result.json", arena);
     if (!path) return ves_diag_fail(diag, VES_MEMORY);
+    char *sweep = ves_folder_path(run, "sweep.json", arena);
+    if (!sweep) return ves_diag_fail(diag, VES_MEMORY);
+    if (access(path, F_OK) && !access(sweep, F_OK))
+        return ves_diag_add(diag, VES_ERROR, VES_USAGE, NOWHERE,
+                            "\"%s\" is a sweep: name one of its points, %s:17; sweep.csv has their numbers",
+                            run, run);
     ves_status status = ves_json_load(path, arena, root);
     if (status == VES_MEMORY) return ves_diag_fail(diag, VES_MEMORY);
     if (status == VES_IO)
