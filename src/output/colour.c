@@ -5,6 +5,8 @@
 
 enum { PATCHES = 8, STOPS = 9 };
 
+const ves_rgb ves_ink = {0.16, 0.19, 0.23}, ves_quiet = {0.42, 0.46, 0.51};
+
 static const unsigned patch_colour[PATCHES] = {0x5088bd, 0xe2a854, 0x62ab8d, 0xc9717c,
                                                0x8d80b8, 0x7f919c, 0xb98d62, 0x57aab8};
 

@@ -8,7 +8,7 @@
 
 enum { NAMES = 8, LABEL = 64 };
 
-static const ves_rgb ink = {0.16, 0.19, 0.23}, quiet = {0.42, 0.46, 0.51}, marrow = {0.86, 0.33, 0.05};
+static const ves_rgb marrow = {0.86, 0.33, 0.05};
 
 typedef struct sheet {
     cairo_t *cairo;
@@ -115,7 +115,7 @@ static void mesh_lines(const sheet *s, const ves_piece *p)
     static const ves_rgb paper = {1, 1, 1};
     ves_rgb own = {p->r, p->g, p->b};
     bool dark = 0.21 * own.r + 0.72 * own.g + 0.07 * own.b < DARK; /* ink would not be seen on it */
-    colour(s, ves_colour_mix(own, dark ? paper : ink, 0.5), dark ? 0.3 : 0.42);
+    colour(s, ves_colour_mix(own, dark ? paper : ves_ink, 0.5), dark ? 0.3 : 0.42);
     cairo_set_line_width(s->cairo, 0.7 * s->unit);
     cairo_stroke(s->cairo);
 }
@@ -125,7 +125,7 @@ static void piece_draw(const sheet *s, const ves_piece *p)
     if (p->corners == 2) {
         cairo_move_to(s->cairo, p->x[0], p->y[0]);
         cairo_line_to(s->cairo, p->x[1], p->y[1]);
-        colour(s, p->spine ? marrow : ink, 1);
+        colour(s, p->spine ? marrow : ves_ink, 1);
         cairo_set_line_width(s->cairo, (p->spine ? 2.6 : 1.8) * s->unit);
         cairo_stroke(s->cairo);
         return;
@@ -170,7 +170,7 @@ static void title(const sheet *s)
     ves_utf8_copy(whole, sizeof whole, s->figure->title);
     font(s, 18, true);
     if (width_of(s, rest) > most) font(s, 15, true), height = 19;
-    colour(s, ink, 1);
+    colour(s, ves_ink, 1);
     for (int line = 0; line < 2 && *rest; line++) {
         rest = title_line(s, rest, most, part);
         write_text(s, 30 * s->unit, (36 + line * height) * s->unit, 0, part);
@@ -199,7 +199,7 @@ static void scale_bar(const sheet *s)
     double length = ves_step_below(130 * s->unit / s->scene->camera.scale),
            size = length * s->scene->camera.scale;
     double right = s->view->width - 30 * s->unit, y = s->view->height - 28 * s->unit, tick = 4 * s->unit;
-    colour(s, ink, 1);
+    colour(s, ves_ink, 1);
     cairo_set_line_width(s->cairo, 1.6 * s->unit);
     cairo_move_to(s->cairo, right - size, y - tick);
     cairo_line_to(s->cairo, right - size, y);
@@ -241,14 +241,14 @@ static void legend_title(const sheet *s, double x, double y)
     const char *word = s->view->colour, *unit = s->figure->unit;
     bool gauss = !strcmp(word, "K");
     font(s, 12, false);
-    colour(s, ink, 1);
+    colour(s, ves_ink, 1);
     write_text(s, s->view->width - 16 * s->unit, y - 18 * s->unit, 1, meaning[ves_scene_quantity(word)]);
     if (unit)
         snprintf(text, sizeof text, "%s (1/%s%s)", word, unit, gauss ? "²" : "");
     else
         snprintf(text, sizeof text, "%s", word);
     font(s, 13, true);
-    colour(s, ink, 1);
+    colour(s, ves_ink, 1);
     write_text(s, x, y, 0, text);
 }
 
@@ -268,11 +268,11 @@ static void legend_tick(const sheet *s, double x, double y, double value)
 {
     char text[LABEL];
     snprintf(text, sizeof text, "%s%.4g", value < 0 ? "\xE2\x88\x92" : "", fabs(value));
-    colour(s, quiet, 1);
+    colour(s, ves_quiet, 1);
     cairo_move_to(s->cairo, x, y);
     cairo_line_to(s->cairo, x + 4 * s->unit, y);
     cairo_stroke(s->cairo);
-    colour(s, ink, 1);
+    colour(s, ves_ink, 1);
     write_text(s, x + 8 * s->unit, y + 4 * s->unit, 0, text);
 }
 
@@ -326,7 +326,7 @@ static void names(const sheet *s)
         cairo_rectangle(s->cairo, x, y, size, size);
         colour(s, ves_colour_patch(k), 1);
         cairo_fill(s->cairo);
-        colour(s, ink, 1);
+        colour(s, ves_ink, 1);
         write_text(s, x + size + 7 * s->unit, y + size - s->unit, 0, text);
     }
 }

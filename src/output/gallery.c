@@ -25,8 +25,6 @@ enum {
 
 static const double cell_pixels = 4; /* as of a picture */
 
-static const ves_rgb ink = {0.16, 0.19, 0.23}, quiet = {0.42, 0.46, 0.51};
-
 typedef struct sheet {
     const ves_gallery *gallery;
     ves_figure head; /* what is told of all: as the first, with the title of the gallery */
@@ -97,7 +95,7 @@ static void notes_draw(cairo_t *c, const ves_gallery_item *item, const ves_frame
 {
     const double size = 12, most = frame->right - frame->left;
     int at = 0;
-    font(c, false, quiet);
+    font(c, false, ves_quiet);
     for (int line = 0; line < LINES && at < item->notes; line++, y += LINE) {
         char text[TEXT], more[TEXT + 32], room[32];
         bool last = line == LINES - 1;
@@ -117,7 +115,7 @@ static void draw(cairo_t *c, const void *data)
     for (int k = 0; k < gallery->items; k++) {
         const ves_frame *frame = &s->frame[k];
         double y = frame->bottom + GAP + LINE;
-        font(c, true, ink);
+        font(c, true, ves_ink);
         centred(c, frame, y, 15, gallery->item[k].caption);
         notes_draw(c, &gallery->item[k], frame, y + LINE + 2);
     }

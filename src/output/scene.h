@@ -15,6 +15,8 @@ typedef struct ves_colour_scale {
     bool constant;                /* all values are that in the middle: lo and hi mean nothing */
 } ves_colour_scale;
 
+extern const ves_rgb ves_ink, ves_quiet; /* of words and lines; of what stands back */
+
 ves_rgb ves_colour_patch(int index);
 ves_rgb ves_colour_line(int index); /* of charts */
 ves_rgb ves_colour_value(const ves_colour_scale *scale, double value);
