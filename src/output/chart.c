@@ -22,7 +22,7 @@ enum {
     DASHES = 5
 };
 
-static const ves_rgb ink = {0.16, 0.19, 0.23}, quiet = {0.42, 0.46, 0.51}, faint = {0.87, 0.89, 0.91};
+static const ves_rgb faint = {0.87, 0.89, 0.91};
 
 static const double FEW = 1.5; /* decades */
 
@@ -144,7 +144,7 @@ static void grid(cairo_t *c, const ves_chart *chart, bool upright)
         cairo_move_to(c, x, y);
         cairo_line_to(c, upright ? WIDTH - RIGHT : x, upright ? y : bottom);
         cairo_stroke(c);
-        colour(c, quiet, 1);
+        colour(c, ves_quiet, 1);
         tick_text(a, at, text);
         if (upright)
             words(c, LEFT - 8, y + 4, 1, text);
@@ -159,7 +159,7 @@ static void frame(cairo_t *c, const ves_chart *chart)
     font(c, 12, false);
     grid(c, chart, false);
     grid(c, chart, true);
-    colour(c, ink, 1);
+    colour(c, ves_ink, 1);
     cairo_set_line_width(c, 1);
     cairo_rectangle(c, LEFT, top_of(chart), WIDTH - LEFT - RIGHT, bottom - top_of(chart));
     cairo_stroke(c);
@@ -174,9 +174,22 @@ static void frame(cairo_t *c, const ves_chart *chart)
     if (chart->title) words_fit(c, LEFT, 34, 0, 16, WIDTH - LEFT - 20, chart->title);
 }
 
-static void dashes(cairo_t *c, int index)
+static bool is_alone(const ves_chart_line *l)
 {
-    int kind = index / COLOURS % DASHES;
+    return l->mark == VES_MARK_CROSS || l->mark == VES_MARK_SPECK || l->mark == VES_MARK_RING;
+}
+
+static ves_rgb tint(const ves_chart *chart, int index)
+{
+    const ves_chart_line *l = &chart->line[index];
+    if (l->mark == VES_MARK_CROSS || l->mark == VES_MARK_RING) return ves_ink;
+    return ves_colour_line(l->colour ? l->colour - 1 : index);
+}
+
+static void dashes(cairo_t *c, const ves_chart *chart, int index)
+{
+    const ves_chart_line *l = &chart->line[index];
+    int kind = (l->colour ? (l->colour - 1) / COLOURS * 2 + l->dashed : index / COLOURS) % DASHES;
     cairo_set_dash(c, dash[kind], kind ? 4 : 0, 0);
 }
 
@@ -189,6 +202,12 @@ static bool shown(const ves_chart *chart, double x, double y)
 /* Specks are smaller where there are many. */
 static void mark_draw(cairo_t *c, const ves_chart_line *l, double x, double y)
 {
+    if (l->mark == VES_MARK_RING) {
+        cairo_new_sub_path(c);
+        cairo_arc(c, x, y, 5, 0, 2 * acos(-1));
+        cairo_stroke(c);
+        return;
+    }
     if (l->mark != VES_MARK_CROSS) {
         cairo_arc(c, x, y, l->mark == VES_MARK_DOT ? 2.5 : l->count > MANY ? 1.2 : 2, 0, 2 * acos(-1));
         cairo_fill(c);
@@ -204,7 +223,7 @@ static void mark_draw(cairo_t *c, const ves_chart_line *l, double x, double y)
 static void marks_draw(cairo_t *c, const ves_chart *chart, int index)
 {
     const ves_chart_line *l = &chart->line[index];
-    colour(c, l->mark == VES_MARK_CROSS ? ink : ves_colour_line(index), l->mark == VES_MARK_SPECK ? 0.5 : 1);
+    colour(c, tint(chart, index), l->mark == VES_MARK_SPECK ? 0.5 : 1);
     cairo_set_line_width(c, 1.5);
     for (int k = 0; k < l->count && l->mark != VES_MARK_NONE; k++)
         if (shown(chart, l->x[k], l->y[k])) mark_draw(c, l, px(chart, l->x[k]), py(chart, l->y[k]));
@@ -213,7 +232,7 @@ static void marks_draw(cairo_t *c, const ves_chart *chart, int index)
 static void line_draw(cairo_t *c, const ves_chart *chart, int index)
 {
     const ves_chart_line *l = &chart->line[index];
-    if (l->mark == VES_MARK_CROSS || l->mark == VES_MARK_SPECK) return;
+    if (is_alone(l)) return;
     bool pen = false;
     for (int k = 0; k < l->count; k++) {
         if (!shown(chart, l->x[k], l->y[k])) {
@@ -228,9 +247,9 @@ static void line_draw(cairo_t *c, const ves_chart *chart, int index)
             cairo_move_to(c, x, y);
         pen = true;
     }
-    colour(c, ves_colour_line(index), 1);
+    colour(c, tint(chart, index), 1);
     cairo_set_line_width(c, 2);
-    dashes(c, index);
+    dashes(c, chart, index);
     cairo_stroke(c);
     cairo_set_dash(c, NULL, 0, 0);
 }
@@ -250,7 +269,7 @@ static void band_draw(cairo_t *c, const ves_chart *chart, int index)
         cairo_line_to(c, px(chart, l->x[k]), py(chart, high[0]));
         cairo_close_path(c);
     }
-    colour(c, ves_colour_line(index), 0.16);
+    colour(c, tint(chart, index), 0.16);
     cairo_fill(c);
 }
 
@@ -261,11 +280,10 @@ static void legend(cairo_t *c, const ves_chart *chart)
     font(c, size, false);
     for (int k = 0; k < chart->lines; k++) {
         double x = WIDTH - RIGHT + 18, y = top_of(chart) + 12 + step * k;
-        const ves_chart_mark mark = chart->line[k].mark;
-        const bool alone = mark == VES_MARK_CROSS || mark == VES_MARK_SPECK;
-        colour(c, mark == VES_MARK_CROSS ? ink : ves_colour_line(k), 1);
+        const bool alone = is_alone(&chart->line[k]);
+        colour(c, tint(chart, k), 1);
         cairo_set_line_width(c, 2);
-        dashes(c, k);
+        dashes(c, chart, k);
         if (!alone) {
             cairo_move_to(c, x, y - 4);
             cairo_line_to(c, x + 26, y - 4);
@@ -273,7 +291,7 @@ static void legend(cairo_t *c, const ves_chart *chart)
         }
         cairo_set_dash(c, NULL, 0, 0);
         if (alone) mark_draw(c, &chart->line[k], x + 13, y - 4);
-        colour(c, ink, 1);
+        colour(c, ves_ink, 1);
         words_fit(c, x + 34, y, 0, size, RIGHT - 58, chart->line[k].name);
     }
 }
@@ -286,7 +304,7 @@ static bool guide_seen(const ves_chart *chart, const ves_chart_guide *guide)
 static void guide_draw(cairo_t *c, const ves_chart *chart, const ves_chart_guide *guide)
 {
     const double x = px(chart, guide->x);
-    colour(c, quiet, 1);
+    colour(c, ves_quiet, 1);
     cairo_set_line_width(c, 1.2);
     cairo_set_dash(c, dash[1], 4, 0);
     cairo_move_to(c, x, top_of(chart));
@@ -307,7 +325,7 @@ static void guides_draw(cairo_t *c, const ves_chart *chart)
         guide_draw(c, chart, guide);
         if (!guide->name) continue;
         font(c, 12, false);
-        colour(c, ink, 1);
+        colour(c, ves_ink, 1);
         ves_utf8_copy(clean, sizeof clean, guide->name);
         cairo_text_extents(c, clean, &extents);
         double from = fmax(px(chart, guide->x) - (guide->left ? extents.x_advance : 0), end + ROOM);

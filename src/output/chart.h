@@ -6,8 +6,14 @@
 
 #include "vesica/diag.h"
 
-/* What stands at each point: CROSS and SPECK, a faint dot, without a line between them. */
-typedef enum ves_chart_mark { VES_MARK_NONE, VES_MARK_DOT, VES_MARK_CROSS, VES_MARK_SPECK } ves_chart_mark;
+/* What stands at each point: CROSS, SPECK, a faint dot, and RING without a line between them. */
+typedef enum ves_chart_mark {
+    VES_MARK_NONE,
+    VES_MARK_DOT,
+    VES_MARK_CROSS,
+    VES_MARK_SPECK,
+    VES_MARK_RING
+} ves_chart_mark;
 
 typedef struct ves_chart_line {
     const char *name;
@@ -16,6 +22,8 @@ typedef struct ves_chart_line {
     const double *low, *high; /* [count] a band about it, or NULL */
     bool stairs;              /* y holds from its x on */
     ves_chart_mark mark;
+    int colour;  /* that of the line of this number, from 1; 0: its own */
+    bool dashed; /* of two of one colour */
 } ves_chart_line;
 
 /* An axis: what it shows, from where to where; logarithmic: both ends > 0. */

@@ -8,7 +8,6 @@
 
 #include "base/diag.h"
 #include "base/text.h"
-#include "output/chart.h"
 #include "output/file.h"
 #include "study/design.h"
 #include "study/folder.h"
@@ -262,96 +261,6 @@ static void shapes_fill(const reporter *r, FILE *out)
     fputs("  </Collection>\n</VTKFile>\n", out);
 }
 
-/* --- the chart --- */
-
-static bool number_of(const ves_sweep *s, int index, double *y)
-{
-    const ves_sweep_point *point = &s->point[index];
-    *y =
-        point->done ? point->column[s->first[VES_SWEEP_OBJECTIVE]] / s->problem->objective_shown.factor : NAN;
-    return isfinite(*y);
-}
-
-/* Room around what is good, or, where nothing is, around what there is; false: nothing to show. */
-static bool height_find(const ves_sweep *s, ves_chart_axis *axis)
-{
-    double low = INFINITY, high = -INFINITY, y;
-    for (int good = 1; good >= 0 && low > high; good--)
-        for (int k = 0; k < points_of(s); k++)
-            if (number_of(s, k, &y) && (s->point[k].good || !good)) low = fmin(low, y), high = fmax(high, y);
-    if (low > high) return false;
-    double room = high > low ? 0.05 * (high - low) : fmax(0.05 * fabs(high), 1e-6);
-    axis->low = low - room;
-    axis->high = high + room;
-    return true;
-}
-
-static void line_fill(const ves_sweep *s, int walk, double factor, double *x, double *y)
-{
-    for (int k = 0; k < s->count; k++) {
-        int index = ves_sweep_point_at(s, walk, k);
-        x[k] = s->def->axis[0].value[k] / factor;
-        if (!number_of(s, index, &y[k]) || !s->point[index].good) y[k] = NAN;
-    }
-}
-
-/* A lost point stands where its objective is, if it has one that can be shown, else on the floor. */
-static int lost_fill(const ves_sweep *s, double factor, const ves_chart_axis *axis, double *x, double *y)
-{
-    int count = 0;
-    for (int k = 0; k < points_of(s); k++) {
-        if (!s->point[k].done || s->point[k].good) continue;
-        x[count] = s->def->axis[0].value[ves_sweep_place(s, k)] / factor;
-        if (!number_of(s, k, &y[count]) || y[count] < axis->low || y[count] > axis->high)
-            y[count] = axis->low;
-        count++;
-    }
-    return count;
-}
-
-static ves_status chart_draw(reporter *r, ves_chart *chart, const ves_shown *shown)
-{
-    const ves_sweep *s = r->sweep;
-    const size_t points = (size_t)points_of(s);
-    ves_chart_line *line = ves_arena_take(&r->arena, (size_t)s->walks + 1, sizeof *line);
-    double *x = ves_arena_take(&r->arena, 2 * points, sizeof *x);
-    double *y = ves_arena_take(&r->arena, 2 * points, sizeof *y);
-    char *path = ves_folder_path(s->folder, "sweep.png", &r->arena);
-    if (!line || !x || !y || !path) return ves_diag_fail(r->diag, VES_MEMORY);
-    for (int w = 0; w < s->walks; w++) {
-        const size_t at = (size_t)(w * s->count);
-        line_fill(s, w, shown->factor, x + at, y + at);
-        const char *name = *s->walk[w].name ? s->walk[w].name : "best";
-        line[w] =
-            (ves_chart_line){.name = name, .count = s->count, .x = x + at, .y = y + at, .mark = VES_MARK_DOT};
-    }
-    int lost = lost_fill(s, shown->factor, &chart->y, x + points, y + points);
-    line[s->walks] = (ves_chart_line){
-        .name = "lost", .count = lost, .x = x + points, .y = y + points, .mark = VES_MARK_CROSS};
-    chart->line = line;
-    chart->lines = s->walks + (lost > 0);
-    return ves_chart_write(chart, path, r->diag);
-}
-
-static ves_status chart_write(reporter *r)
-{
-    const ves_sweep *s = r->sweep;
-    const ves_sweep_axis *axis = &s->def->axis[0];
-    const ves_shown *shown = &s->problem->parameter[axis->parameter].shown,
-                    *of = &s->problem->objective_shown;
-    ves_chart chart = {.title = s->problem->title};
-    if (!height_find(s, &chart.y)) return VES_OK;
-    chart.x.label = ves_arena_format(&r->arena, *shown->unit ? "%s [%s]" : "%s", axis->name, shown->unit);
-    chart.y.label =
-        ves_arena_format(&r->arena, *of->unit ? "%s [%s]" : "%s", s->problem->objective_text, of->unit);
-    if (!chart.x.label || !chart.y.label) return ves_diag_fail(r->diag, VES_MEMORY);
-    const double a = axis->value[0] / shown->factor, b = axis->value[axis->count - 1] / shown->factor;
-    const double room = a == b ? fmax(0.05 * fabs(a), 1e-6) : 0;
-    chart.x.low = fmin(a, b) - room;
-    chart.x.high = fmax(a, b) + room;
-    return chart_draw(r, &chart, shown);
-}
-
 /* --- all --- */
 
 static ves_status text_write(reporter *r, const char *name, void (*fill)(const reporter *, FILE *))
@@ -370,7 +279,7 @@ static ves_status all_write(reporter *r)
     VES_TRY(text_write(r, "times.jsonl", times_fill));
     VES_TRY(text_write(r, "sweep.csv", table_fill));
     VES_TRY(text_write(r, "shapes.pvd", shapes_fill));
-    return chart_write(r);
+    return ves_sweep_chart_write(r->sweep, r->diag);
 }
 
 ves_status ves_sweep_report_write(const ves_sweep *sweep, ves_diag *diag)

@@ -24,6 +24,9 @@ void ves_sweep_json(const ves_sweep *sweep, ves_json *json);
 /* points.jsonl, times.jsonl, sweep.csv, sweep.png, shapes.pvd. */
 ves_status ves_sweep_report_write(const ves_sweep *sweep, ves_diag *diag);
 
+/* sweep.png. Of nothing that has a value there is none. */
+ves_status ves_sweep_chart_write(const ves_sweep *sweep, ves_diag *diag);
+
 /* At how many places two walks of one second value end at different optima; the first and the last of them. */
 int ves_sweep_apart(const ves_sweep *sweep, int walk, int other, int *first, int *last);
 
