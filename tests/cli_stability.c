@@ -107,3 +107,36 @@ Test(cli_stability, runs_their_optima_and_points_of_sweeps)
     expect(vesica(NULL, "stability s"), 2, NULL, "\"s\" is a sweep: name one of its points, s:17", "s");
     root_remove();
 }
+
+/* A sphere that can be drawn out: with c0 = 7 it is unstable and both ways lead lower, with c0 = 0 it is not and both come
+ * back; n = 2 is none of its shapes. */
+Test(cli_stability, a_mode_is_followed)
+{
+    root_make();
+    write_file("p.yaml",
+               "vesica: 1\ntitle: Drawn out\nparameters: {c: 7}\nvariables: {e: [-0.4, 0, 0.6]}\npatches:\n  "
+               "ball: {surface: {formula: "
+               "[\"(1+e*(1.5*cos(u)^2-0.5))*sin(u)*cos(v)\", \"(1+e*(1.5*cos(u)^2-0.5))*sin(u)*sin(v)\", "
+               "\"(1+e*(1.5*cos(u)^2-0.5))*cos(u)\"]}, domain: {u: [0, pi]}}\nshape: {closed: true}\n"
+               "quadrature: {u: 16, v: 8}\nscale: {equation: area == 4*pi}\nmeasures: {E: {canham: "
+               "{reduced_c0: c}}}\n"
+               "minimize: E/(8*pi)\nkinds: {long: e > 0.01, flat: e < -0.01}\nsearch: [{polish: {}}]\n");
+    outcome o = vesica(NULL, "stability p.yaml --modes 0 --follow softest");
+    cr_expect(
+        o.code == 1 && strstr(o.out, "  along       n = 0: the variables of the file make 100 % of it\n") &&
+            strstr(o.out, " lower: long   runs/p-0001\n") && strstr(o.out, " lower: flat   runs/p-0002\n"),
+        "%s%s", o.out, o.err);
+    done(&o);
+    cr_expect(count_of("runs/p-0001/result.json", "\"kind\": \"long\"") >= 1);
+    o = vesica(NULL, "stability p.yaml --modes 0 --set c=0 --follow 0 --no-files");
+    cr_expect(o.code == 0 && strstr(o.out, "one way      comes back to the design: none of these\n") &&
+                  strstr(o.out, "other way    comes back to the design: none of these\n"),
+              "%s%s", o.out, o.err);
+    done(&o);
+    expect(vesica(NULL, "stability p.yaml --follow 2 --no-files"), 1, "which is too little to follow", NULL,
+           "n = 2");
+    expect(vesica(NULL, "stability p.yaml --modes 0 --follow 0 --json --no-files"), 1, "\"along\": {",
+           "  one way ", "json");
+    expect(vesica(NULL, "stability p.yaml --follow far"), 2, NULL, "--follow needs softest or", "far");
+    root_remove();
+}

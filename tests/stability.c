@@ -271,6 +271,34 @@ Test(stability, the_variables_have_a_hessian_of_their_own)
     ves_problem_destroy(problem);
 }
 
+/* A sphere that can be drawn out, by e P_2(cos u): its mode n = 0, l = 2, by e = 1 is sqrt(5 / (4 pi)) of that. Of n = 2 it
+ * can make nothing. */
+Test(stability, a_mode_is_a_change_of_the_variables)
+{
+    static const char text[] =
+        "vesica: 1\nvariables: {e: [-0.5, 0, 0.5], idle: [-1, 0, 1]}\npatches:\n  ball: {surface: {formula: "
+        "[\"(1+e*(1.5*cos(u)^2-0.5))*sin(u)*cos(v)\", \"(1+e*(1.5*cos(u)^2-0.5))*sin(u)*sin(v)\", "
+        "\"(1+e*(1.5*cos(u)^2-0.5))*cos(u)\"]}, domain: {u: [0, pi]}}\nshape: {closed: true}\n"
+        "quadrature: {u: 16, v: 8}\nscale: {equation: area == 4*pi}\nmeasures: {E: {canham: {reduced_c0: "
+        "7}}}\n"
+        "minimize: E/(8*pi) + idle^2\n";
+    const double pi = 3.14159265358979323846, amplitude = sqrt(5 / (4 * pi));
+    ves_problem *problem = NULL;
+    ves_stability found;
+    double change[2];
+    ves_stability_options options = {
+        .counted = true, .modes = 2, .functions = 18, .change = change, .along = 0};
+    cr_assert(ves_problem_read_text("p.yaml", text, strlen(text), NULL, &problem, NULL) == VES_OK);
+    cr_assert(ves_stability_find(problem, &options, &found, NULL) == VES_OK);
+    cr_expect(found.followed == 0 && fabs(found.made - 1) < 1e-6, "%d %.9f", found.followed, found.made);
+    cr_expect(fabs(fabs(change[0]) / amplitude - 1) < 1e-6 && change[1] == 0, "%g %g, want %g", change[0],
+              change[1], amplitude);
+    options.along = 2;
+    cr_assert(ves_stability_find(problem, &options, &found, NULL) == VES_OK);
+    cr_expect(found.followed == 2 && found.made < 1e-9, "%d %g", found.followed, found.made);
+    ves_problem_destroy(problem);
+}
+
 Test(stability, first_variations_of_every_measure_are_exact)
 {
     ves_problem *problem = read(LOPSIDED);

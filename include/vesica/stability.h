@@ -39,6 +39,11 @@ typedef struct ves_stability_options {
     bool counted;  /* modes holds */
     int modes;     /* the highest n, 0 .. VES_STABILITY_MODES */
     int functions; /* of the arc length, 6 .. VES_STABILITY_FUNCTIONS; 0: chosen */
+
+    /* Receives a change of the variables [variables], SI: added to the design it displaces the surface, as nearly as they
+     * can, along the lowest mode by e = 1 (see above). Of n = along, or, if that is negative, of the softest. NULL: none. */
+    double *change;
+    int along;
 } ves_stability_options;
 
 /* By the lowest eigenvalue: above its error, within it, below minus it. Unknown: there is no stationary shape near the
@@ -70,6 +75,8 @@ typedef struct ves_stability {
     ves_firmness_mode mode[VES_STABILITY_MODES + 1];
     int softest; /* index of the mode with the lowest eigenvalue */
     ves_firmness firmness;
+    int followed; /* the n that `change` is about */
+    double made;  /* by it: the part of the mode's square that the variables can make, 0 .. 1 */
 
     /* The same in the variables of the file: eigenvalues of the Lagrangian's Hessian at the design itself, on the
      * variables that stand at no bound and the constraints, a variable's unit being its range; the lowest that are not

@@ -25,10 +25,10 @@ typedef struct app_options {
     int sets, plugins;
     ves_override set[APP_SETS];
     const char *plugin[APP_PLUGINS + 1]; /* ends with NULL */
-    bool seeded, counted, json, test, no_files, reference, viewed, spines, suite, forget, help;
+    bool seeded, counted, follows, json, test, no_files, reference, viewed, spines, suite, forget, help;
     uint64_t seed;
     long evaluations;
-    int jobs, spine, modes, functions, grid[2];
+    int jobs, spine, modes, functions, along, grid[2]; /* along: -1: softest */
     double metres;       /* of the unit of export; 0: none is asked for */
     double view[2];      /* radians: azimuth, height */
     const char *decides; /* an option that a resumed run has decided already, or NULL */

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "app/app.h"
+#include "app/follow.h"
 #include "app/table.h"
 #include "vesica/stability.h"
 
@@ -40,7 +41,20 @@ static void own_json(const ves_problem *p, const ves_stability *s, ves_json *jso
     ves_json_end(json, '}');
 }
 
-static void json_print(const ves_problem *p, const ves_stability *s)
+/* change: NULL: nothing is followed. */
+static void along_json(const ves_problem *p, const ves_stability *s, const double *change, ves_json *json)
+{
+    if (!change) return;
+    ves_json_object(json, "along");
+    ves_json_integer(json, "n", s->followed);
+    ves_json_number(json, "made", s->made);
+    ves_json_object(json, "change");
+    for (int k = 0; k < p->variables; k++) ves_json_number(json, p->variable[k].name, change[k]);
+    ves_json_end(json, '}');
+    ves_json_end(json, '}');
+}
+
+static void json_print(const ves_problem *p, const ves_stability *s, const double *change)
 {
     ves_json json = {.out = stdout};
     ves_json_object(&json, NULL);
@@ -58,6 +72,7 @@ static void json_print(const ves_problem *p, const ves_stability *s)
     ves_json_number(&json, "moved", s->moved);
     ves_json_number(&json, "R0", s->radius);
     own_json(p, s, &json);
+    along_json(p, s, change, &json);
     ves_json_integer(&json, "functions", s->functions);
     ves_json_array(&json, "quadrature");
     for (int k = 0; k < 2; k++) ves_json_integer(&json, NULL, s->quadrature[k]);
@@ -171,16 +186,21 @@ int app_stability(app *a)
     ves_stability found;
     int code;
     if (!app_open(a, &opened, &code)) return code;
-    const ves_stability_options options = {
-        .counted = a->options.counted, .modes = a->options.modes, .functions = a->options.functions};
+    ves_stability_options options = {.counted = a->options.counted,
+                                     .modes = a->options.modes,
+                                     .functions = a->options.functions,
+                                     .along = a->options.along};
+    if (a->options.follows)
+        options.change = ves_arena_take(&a->arena, (size_t)opened.problem->variables, sizeof(double));
     ves_status status = ves_stability_find(opened.problem, &options, &found, a->diag);
     app_say(a);
     code = app_code(status);
     if (status == VES_OK) {
         if (a->options.json)
-            json_print(opened.problem, &found);
+            json_print(opened.problem, &found, options.change);
         else
             screen(opened.problem, &found, stdout);
+        if (a->options.follows) app_follow(a, &opened, &found, options.change);
         code = found.firmness >= VES_UNSTABLE ? APP_UNMET : APP_DONE;
     }
     ves_study_close(&opened);

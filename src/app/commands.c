@@ -37,7 +37,7 @@ const app_command app_commands[] = {
      "`vesica check`, and by a run for its bests."},
     {"stability", "stability FILE|RUN",
      "is the shape a minimum among all shapes near it? Which way is it softest?", 1, 1,
-     PROBLEM "|modes|functions", app_stability,
+     PROBLEM "|modes|functions|follow|no-files", app_stability,
      "Closed surfaces of revolution. docs/stability.md tells what the eigenvalues are. Exit code: 0 when "
      "none is "
      "negative\n"

@@ -124,6 +124,15 @@ static bool take_modes(app *a, const char *value)
     return a->options.counted = true;
 }
 
+static bool take_follow(app *a, const char *value)
+{
+    long n = -1;
+    if (strcmp(value, "softest") && !whole(value, 0, VES_STABILITY_MODES, &n))
+        return wrong(a, "--follow needs softest or an azimuthal mode, 0 to 12, got \"%s\"", value);
+    a->options.along = (int)n;
+    return a->options.follows = true;
+}
+
 static bool take_functions(app *a, const char *value)
 {
     long functions;
@@ -258,6 +267,7 @@ static const option table[] = {
     {"patch", "NAME", "which patch (needed when there are several)", take_patch},
     {"points", "FILE", "CSV of u (0 to 1), v (0 to 2 pi), whatever `domain` says; - is stdin", take_points},
     {"modes", "N", "azimuthal modes n = 0 ... N (4, unless said; 12 at most)", take_modes},
+    {"follow", "N|softest", "a descent from beside the shape, both ways along the lowest mode of n = N, or the softest", take_follow},
     {"functions", "N", "of the meridian, that displacements are made of (6 to 96; chosen, unless said)", take_functions},
     {"spine", "N", "N points of the spine, the mean over v, from end to end, with its first two derivatives by u", take_spine},
     {"spines", NULL, "the spines of PDE patches too: drawn over the shape, or in files NAME-spines.vtp, .obj, .csv", take_spines},

@@ -6,6 +6,7 @@
 #include "base/basis.h"
 #include "base/diag.h"
 #include "base/vector.h"
+#include "plan/follow.h"
 #include "plan/own.h"
 #include "plan/spectrum.h"
 #include "plan/variation.h"
@@ -258,6 +259,29 @@ static ves_status modes_find(work *w, int modes, ves_stability *out)
     return VES_OK;
 }
 
+/* The lowest mode as a change of the variables. */
+static ves_status follow(work *w, const ves_stability_options *o, ves_stability *out)
+{
+    plan_variation *v = &w->v;
+    const double small = SMALL * v->unit; /* the surface must still be one */
+    double value;
+    out->followed = o->along;
+    for (int n = 0, low = 0; n < out->modes && o->along < 0; n++) {
+        if (out->mode[n].value[0] < out->mode[low].value[0]) low = n;
+        out->followed = out->mode[low].n;
+    }
+    ves_variation_mode(v, out->followed);
+    VES_TRY(metric_make(w));
+    VES_TRY(second(w));
+    memcpy(w->y, w->spectrum.vector, sizeof(double) * (size_t)v->functions);
+    ves_spectrum_colour(&w->spectrum, w->y);
+    for (int k = 0; k < v->functions; k++) v->wave[k] = w->y[k] * v->unit * small;
+    VES_TRY(ves_variation_value(v, &value, v->missed[1]));
+    VES_TRY(ves_follow_fit(v, o->change, &out->made));
+    for (int k = 0; k < v->plan->problem->variables; k++) o->change[k] *= v->unit / small;
+    return VES_OK;
+}
+
 /* --- all of it --- */
 
 static int up_to(int n, int multiple)
@@ -309,7 +333,8 @@ static ves_status spin(plan_variation *v, ves_diag *diag)
         v->plan->problem->name);
 }
 
-static ves_status with_plan(ves_plan *plan, int modes, ves_stability *out, ves_diag *diag)
+static ves_status with_plan(ves_plan *plan, const ves_stability_options *o, ves_stability *out,
+                            ves_diag *diag)
 {
     ves_arena arena = {0};
     work w = {0};
@@ -320,7 +345,8 @@ static ves_status with_plan(ves_plan *plan, int modes, ves_stability *out, ves_d
         status = work_create(&w, &arena);
         out->radius = w.v.unit;
         if (status == VES_OK) status = stationary_find(&w, out);
-        if (status == VES_OK) status = modes_find(&w, modes, out);
+        if (status == VES_OK) status = modes_find(&w, o->modes, out);
+        if (status == VES_OK && o->change) status = follow(&w, o, out);
         out->held = w.v.conditions;
         for (int k = 0; k < w.v.conditions && k < VES_STABILITY_HOLDS; k++)
             out->holds[k] = w.v.condition[k].text;
@@ -331,15 +357,15 @@ static ves_status with_plan(ves_plan *plan, int modes, ves_stability *out, ves_d
     return status;
 }
 
-static ves_status with_functions(const ves_problem *problem, int modes, int functions, ves_stability *out,
-                                 ves_diag *diag)
+static ves_status with_functions(const ves_problem *problem, const ves_stability_options *o, int functions,
+                                 ves_stability *out, ves_diag *diag)
 {
     ves_plan *plan = NULL;
     *out = (ves_stability){.stationary = NAN, .moved = NAN, .functions = functions};
-    ves_status status = grid_choose(problem, modes, functions, out->quadrature);
+    ves_status status = grid_choose(problem, o->modes, functions, out->quadrature);
     if (status != VES_OK) return ves_diag_fail(diag, status);
     VES_TRY(ves_plan_loose(problem, out->quadrature, &plan, diag));
-    status = with_plan(plan, modes, out, diag);
+    status = with_plan(plan, o, out, diag);
     ves_plan_destroy(plan);
     return status;
 }
@@ -372,8 +398,8 @@ static ves_status options_look(const ves_problem *p, const ves_stability_options
     if (!p->objective)
         return ves_diag_add(diag, VES_ERROR, VES_ABSENT, (ves_mark){0},
                             "%s: no objective, so nothing to be stable about", p->name);
-    if (o->modes < 0 || o->modes > VES_STABILITY_MODES || o->functions < 0 ||
-        o->functions > VES_STABILITY_FUNCTIONS || (o->functions && o->functions < 6))
+    if (o->modes < 0 || o->modes > VES_STABILITY_MODES || (o->change && o->along > VES_STABILITY_MODES) ||
+        o->functions < 0 || o->functions > VES_STABILITY_FUNCTIONS || (o->functions && o->functions < 6))
         return ves_diag_add(
             diag, VES_ERROR, VES_RANGE, (ves_mark){0},
             "stability is told of modes 0 to %d at most, in 6 to %d functions: %d, %d are not possible",
@@ -384,17 +410,17 @@ static ves_status options_look(const ves_problem *p, const ves_stability_options
 ves_status ves_stability_find(const ves_problem *problem, const ves_stability_options *options,
                               ves_stability *out, ves_diag *diag)
 {
-    const ves_stability_options o = options ? *options : (ves_stability_options){0};
-    const int modes = o.counted ? o.modes : USUAL_MODES;
+    ves_stability_options o = options ? *options : (ves_stability_options){0};
     int functions[] = {32, 48, 64, VES_STABILITY_FUNCTIONS}, choices = sizeof functions / sizeof *functions;
     ves_stability coarse;
     *out = (ves_stability){.stationary = NAN, .moved = NAN};
     VES_TRY(options_look(problem, &o, diag));
+    if (!o.counted) o.modes = USUAL_MODES > o.along || !o.change ? USUAL_MODES : o.along;
     if (o.functions) functions[0] = 2 * o.functions / 3, functions[1] = o.functions, choices = 2;
-    VES_TRY(with_functions(problem, modes, functions[0], out, diag));
+    VES_TRY(with_functions(problem, &o, functions[0], out, diag));
     for (int k = 1; k < choices; k++) {
         coarse = *out;
-        VES_TRY(with_functions(problem, modes, functions[k], out, diag));
+        VES_TRY(with_functions(problem, &o, functions[k], out, diag));
         compare(&coarse, out);
         if (settled(out)) break;
     }

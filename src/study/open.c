@@ -1,6 +1,7 @@
 #include "study/open.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -68,6 +69,20 @@ const char *ves_study_quantity(const char *number, ves_dim dim, const ves_shown 
     /* 1/m and kg m^2/s^2 can be read by people only; powers come in sixths */
     return ves_arena_format(arena, "%s*(1 kg)^(%d/6)*(1 m)^(%d/6)*(1 s)^(%d/6)", number, dim.kg, dim.m,
                             dim.s);
+}
+
+ves_status ves_study_starts(const ves_problem *problem, const double *x, ves_arena *arena, ves_override *set)
+{
+    for (int k = 0; k < problem->variables; k++) {
+        const ves_variable *v = &problem->variable[k];
+        char digits[32];
+        ves_text_shortest(fmin(fmax(x[k], v->min), v->max), digits);
+        const char *number = ves_arena_text(arena, digits, strlen(digits));
+        set[k] =
+            (ves_override){v->name, number ? ves_study_quantity(number, v->dim, &v->shown, arena) : NULL};
+        if (!set[k].value) return VES_MEMORY;
+    }
+    return VES_OK;
 }
 
 static bool is_number(const ves_node *node)

@@ -26,6 +26,9 @@ void ves_study_close(ves_opened *opened);
  * too. NULL: out of memory. */
 const char *ves_study_quantity(const char *number, ves_dim dim, const ves_shown *shown, ves_arena *arena);
 
+/* What makes x [variables], SI, the start of a problem, moved into the ranges: set [variables]. VES_MEMORY. */
+ves_status ves_study_starts(const ves_problem *problem, const double *x, ves_arena *arena, ves_override *set);
+
 /* A file of up to 64 MB, terminated, in the arena. VES_IO: errno says why; 0: it is none, or larger. */
 ves_status ves_study_load(const char *path, ves_arena *arena, char **text, size_t *length);
 

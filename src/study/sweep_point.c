@@ -165,16 +165,8 @@ ves_status ves_sweep_branch_check(const ves_sweep_task *task, int branch, ves_di
 /* Appends where the variables begin: what the last good point found, in the ranges that hold here. */
 static ves_status start_set(search *s, const ves_problem *here, ves_override *set, int *count)
 {
-    for (int k = 0; k < here->variables; k++) {
-        const ves_variable *v = &here->variable[k];
-        char digits[32];
-        ves_text_shortest(fmin(fmax(s->from[k], v->min), v->max), digits);
-        const char *number = ves_arena_text(&s->scratch, digits, strlen(digits));
-        ves_override *o = &set[(*count)++];
-        *o = (ves_override){v->name, NULL};
-        if (number) o->value = ves_study_quantity(number, v->dim, &v->shown, &s->scratch);
-        if (!o->value) return VES_MEMORY;
-    }
+    VES_TRY(ves_study_starts(here, s->from, &s->scratch, set + *count));
+    *count += here->variables;
     return VES_OK;
 }
 
