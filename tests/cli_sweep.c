@@ -87,8 +87,8 @@ static double constraint(const json *j, const char *key)
 
 static void same_sweep(const char *a, const char *b, int points)
 {
-    static const char *const file[] = {"problem.yaml", "sweep.json", "points.jsonl",
-                                       "sweep.csv",    "shapes.pvd", "sweep.png"};
+    static const char *const file[] = {"problem.yaml", "sweep.json", "points.jsonl", "sweep.csv",
+                                       "shapes.pvd",   "sweep.png",  "shapes.png"};
     char x[200], y[200];
     for (size_t k = 0; k < sizeof file / sizeof *file; k++) {
         snprintf(x, sizeof x, "%s/%s", a, file[k]);
@@ -267,6 +267,9 @@ Test(cli_sweep, lost_points)
               access("up/shapes/0002.vtp", F_OK) != 0);
     cr_expect(count_of("up/points.jsonl", "\"feasible\":false") == 2 &&
               access("up/shapes/0001.vtp", F_OK) == 0);
+    expect(vesica(NULL, "sweep can.yaml --over A=43,44 --out none"), 1, "sweep.png  shapes.pvd",
+           "2 points in 1 walk", "none");
+    cr_expect(access("up/shapes.png", F_OK) == 0 && access("none/shapes.png", F_OK) != 0);
     expect(vesica(NULL, "sweep can.yaml --over A=44..20:4 --out down"), 1,
            "lost       at A = 44 ... 36: infeasible", NULL, "down");
     lines *l = lines_of("down/points.jsonl");

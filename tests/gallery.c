@@ -49,7 +49,7 @@ static ves_gallery hang(ves_gallery_item *item, const ves_figure *figure, int it
             k == 3 ? "a_method_with_a_name_that_is_longer_than_its_column_is_wide 7/9" : "auto_values 12/15";
     for (int k = 0; k < items; k++)
         item[k] = (ves_gallery_item){&figure[k % 2], "12.1579981", note, k == 0 ? 0 : k == 1 ? 1 : NOTES};
-    return (ves_gallery){"A title \xff that is no text", items, item};
+    return (ves_gallery){.title = "A title \xff that is no text", .items = items, .item = item};
 }
 
 Test(gallery, a_sheet_has_room_for_all)
@@ -109,6 +109,47 @@ Test(gallery, shapes_can_be_compared)
     cr_expect(memcmp(scene[0].camera.up, scene[1].camera.up, sizeof scene[0].camera.up) == 0);
     ves_arena_destroy(&arena);
     for (int k = 0; k < 2; k++) shape_end(&figure[k]);
+}
+
+Test(gallery, small_pictures_stand_in_their_cells)
+{
+    static const int cell[] = {0, 3};
+    ves_figure figure[2];
+    ves_gallery_item item[2];
+    unsigned width, height;
+    for (int k = 0; k < 2; k++) shape_sphere(&figure[k], 1, 6, 16);
+    ves_gallery gallery = hang(item, figure, 2);
+    gallery.columns = 2, gallery.cell = cell, gallery.cut = true;
+    cr_assert(ves_gallery_write(&gallery, path_of("a.png"), NULL) == VES_OK);
+    size_of(path_of("a.png"), &width, &height);
+    cr_expect(width == 720 && height == 698, "two rows: %u x %u", width, height);
+    for (int k = 0; k < 2; k++) shape_end(&figure[k]);
+    clean();
+    check_nothing_left();
+}
+
+/* Half of a sphere, cut along the plane through its axis that the viewer looks at, whose edge is drawn; an open shape is
+ * left whole. */
+Test(gallery, closed_shapes_are_cut_open)
+{
+    const ves_frame frame = {0, 0, 100, 100, 0};
+    ves_view view = ves_view_default();
+    ves_figure sphere;
+    int pieces[2], rims[2] = {0};
+    view.cut = true;
+    shape_sphere(&sphere, 1, 12, 24);
+    for (int closed = 0; closed < 2; closed++) {
+        ves_scene scene;
+        ves_arena arena = {0};
+        sphere.closed = closed;
+        cr_assert(ves_scene_build(&scene, &sphere, &view, &frame, &arena) == VES_OK);
+        pieces[closed] = scene.pieces;
+        for (int k = 0; k < scene.pieces; k++) rims[closed] += scene.piece[k].rim != 0;
+        ves_arena_destroy(&arena);
+    }
+    cr_expect(pieces[0] > 12 * 24 && 2 * pieces[1] == pieces[0], "%d, %d", pieces[0], pieces[1]);
+    cr_expect(rims[0] == 0 && rims[1] >= 2 * 12, "%d, %d: its edge", rims[0], rims[1]);
+    shape_end(&sphere);
 }
 
 /* Logarithmic axes of less than a decade have ticks as well; guides beyond the axis are left out. */

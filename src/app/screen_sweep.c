@@ -249,15 +249,6 @@ static void changes(const ves_sweep *s, int second, FILE *out)
 
 /* --- the best at each value --- */
 
-static int best_at(const ves_sweep *s, int second, int place)
-{
-    for (int w = 0; w < s->walks; w++) {
-        int index = ves_sweep_point_at(s, w, place);
-        if (s->walk[w].second == second && s->point[index].done && s->point[index].best) return index;
-    }
-    return -1;
-}
-
 /* Does the limit of a constraint cost anything, anywhere? */
 static bool is_priced(const ves_sweep *s, int constraint)
 {
@@ -322,12 +313,21 @@ static void bests(const ves_sweep *s, FILE *out)
     int shown = 0;
     for (int k = 0; k < rows; k++) {
         int at = rows > 1 ? (int)((long)k * (all - 1) / (rows - 1)) : 0;
-        int index = best_at(s, at / s->count, at % s->count);
+        int index = ves_sweep_best_at(s, at / s->count, at % s->count);
         if (index >= 0) best_row(s, index, priced, prices, &t), shown++;
     }
     app_table_print(&t, out);
     if (all > rows && shown) fprintf(out, "  (%d of %d values; all are in sweep.csv)\n", shown, all);
     fputc('\n', out);
+}
+
+/* shapes.png is drawn when all is done. */
+static bool has_shapes(const ves_sweep *s)
+{
+    if (s->done < s->walks * s->count) return false;
+    for (int k = 0; k < s->walks * s->count; k++)
+        if (s->point[k].done && s->point[k].best) return true;
+    return false;
 }
 
 void app_screen_sweep(const ves_sweep *s, FILE *out)
@@ -341,5 +341,6 @@ void app_screen_sweep(const ves_sweep *s, FILE *out)
     for (int w = 0; w < shown; w++) apart(s, w, out);
     for (int w = 0; w < shown; w++) merged(s, w, out);
     for (int j = 0; j < (s->def->axes > 1 ? s->def->axis[1].count : 1); j++) changes(s, j, out);
-    fprintf(out, "  %s/   sweep.csv  sweep.png  shapes.pvd  points.jsonl\n", s->folder);
+    fprintf(out, "  %s/   sweep.csv  sweep.png  %sshapes.pvd  points.jsonl\n", s->folder,
+            has_shapes(s) ? "shapes.png  " : "");
 }

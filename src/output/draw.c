@@ -104,15 +104,20 @@ static void outline(const sheet *s, const ves_piece *p, double grow)
 /* Brightness below which lines are light. */
 static const double DARK = 0.3;
 
-static void mesh_lines(const sheet *s, const ves_piece *p)
+static void sides(const sheet *s, const ves_piece *p, unsigned char which)
 {
     static const int side[4][2] = {{0, 3}, {1, 2}, {0, 1}, {3, 2}}; /* low u, high u, low v, high v */
     for (int k = 0; k < 4; k++) {
-        if (!(p->lines & 1 << k)) continue;
+        if (!(which & 1 << k)) continue;
         cairo_move_to(s->cairo, p->x[side[k][0]], p->y[side[k][0]]);
         cairo_line_to(s->cairo, p->x[side[k][1]], p->y[side[k][1]]);
     }
+}
+
+static void mesh_lines(const sheet *s, const ves_piece *p)
+{
     static const ves_rgb paper = {1, 1, 1};
+    sides(s, p, p->lines);
     ves_rgb own = {p->r, p->g, p->b};
     bool dark = 0.21 * own.r + 0.72 * own.g + 0.07 * own.b < DARK; /* ink would not be seen on it */
     colour(s, ves_colour_mix(own, dark ? paper : ves_ink, 0.5), dark ? 0.3 : 0.42);
@@ -134,6 +139,11 @@ static void piece_draw(const sheet *s, const ves_piece *p)
     cairo_set_source_rgb(s->cairo, p->r, p->g, p->b);
     cairo_fill(s->cairo);
     if (p->lines) mesh_lines(s, p);
+    if (!p->rim) return;
+    sides(s, p, p->rim);
+    colour(s, ves_ink, 1);
+    cairo_set_line_width(s->cairo, 1.8 * s->unit);
+    cairo_stroke(s->cairo);
 }
 
 static void shape(const sheet *s, const ves_scene *scene)

@@ -12,6 +12,9 @@ enum {
     LEAST = 720,
     COLUMN = 300,
     ROW = 300,
+    SMALL = 168, /* of small ones: a column, its row, */
+    SMALL_ROW = 284,
+    SMALL_WORDS = 66,
     LEFT = 24,
     RIGHT = 136,
     TOP = 70,
@@ -29,22 +32,29 @@ typedef struct sheet {
     const ves_gallery *gallery;
     ves_figure head; /* what is told of all: as the first, with the title of the gallery */
     ves_view view;
-    ves_frame frame[VES_GALLERY_MOST];
-    ves_scene scene[VES_GALLERY_MOST];
+    ves_frame frame[VES_GALLERY_SMALL];
+    ves_scene scene[VES_GALLERY_SMALL];
 } sheet;
 
 static void layout(sheet *s, bool vector)
 {
-    int items = s->gallery->items, columns = items <= 3 ? items : items == 4 ? 2 : items <= 9 ? 3 : 4;
-    int rows = (items + columns - 1) / columns, width = LEFT + columns * COLUMN + RIGHT;
+    const ves_gallery *g = s->gallery;
+    int items = g->items, cells = g->cell ? g->cell[items - 1] + 1 : items;
+    int columns = g->columns ? g->columns : items <= 3 ? items : items == 4 ? 2 : items <= 9 ? 3 : 4;
+    int rows = (cells + columns - 1) / columns, row = g->columns ? SMALL_ROW : ROW;
+    int width = LEFT + columns * (g->columns ? SMALL : COLUMN) + RIGHT;
     s->view = ves_view_default();
     s->view.width = width > LEAST ? width : LEAST;
-    s->view.height = TOP + rows * ROW + BOTTOM;
+    s->view.height = TOP + rows * row + BOTTOM;
+    s->view.cut = g->cut;
+    if (g->cut) s->view.azimuth = 0.3, s->view.height_angle = 0.3;
     double column = (double)(s->view.width - LEFT - RIGHT) / columns;
     for (int k = 0; k < items; k++) {
-        double left = LEFT + k % columns * column, top = TOP + k / columns * ROW;
-        s->frame[k] = (ves_frame){left + GAP, top + GAP, left + column - GAP, top + ROW - WORDS - GAP,
-                                  vector ? 0 : cell_pixels};
+        int cell = g->cell ? g->cell[k] : k;
+        double left = LEFT + cell % columns * column, top = TOP + cell / columns * row;
+        s->frame[k] =
+            (ves_frame){left + GAP, top + GAP, left + column - GAP,
+                        top + row - (g->columns ? SMALL_WORDS : WORDS) - GAP, vector ? 0 : cell_pixels};
     }
 }
 
@@ -125,7 +135,7 @@ ves_status ves_gallery_write(const ves_gallery *gallery, const char *path, ves_d
 {
     ves_arena arena = {0};
     sheet s = {.gallery = gallery, .head = *gallery->item[0].figure};
-    const ves_figure *figure[VES_GALLERY_MOST];
+    const ves_figure *figure[VES_GALLERY_SMALL];
     for (int k = 0; k < gallery->items; k++) figure[k] = gallery->item[k].figure;
     s.head.title = gallery->title;
     layout(&s, ves_paper_kind_of(path) != VES_PAPER_PNG);

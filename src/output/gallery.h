@@ -4,7 +4,7 @@
 
 #include "output/output.h"
 
-enum { VES_GALLERY_MOST = 12 };
+enum { VES_GALLERY_MOST = 12, VES_GALLERY_SMALL = 48 };
 
 /* notes: what stands under the caption, with commas between; a note is not broken, and what has no room is counted. */
 typedef struct ves_gallery_item {
@@ -16,8 +16,11 @@ typedef struct ves_gallery_item {
 
 typedef struct ves_gallery {
     const char *title;
-    int items; /* 1 to VES_GALLERY_MOST */
+    int items; /* 1 to VES_GALLERY_MOST; of small ones to VES_GALLERY_SMALL */
     const ves_gallery_item *item;
+    int columns;     /* of small pictures; 0: large ones, in as many as suit */
+    const int *cell; /* [items] which cell each one has, rising; NULL: one after another */
+    bool cut;        /* closed shapes are cut open, and seen more from the side */
 } ves_gallery;
 
 /* PNG, SVG or PDF, by the ending. Nothing of the gallery is kept. */

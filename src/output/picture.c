@@ -8,7 +8,7 @@ static const double cell_pixels = 6; /* pieces of a PNG: small enough to look sm
 
 ves_view ves_view_default(void)
 {
-    return (ves_view){WIDTH, HEIGHT, 0.6, 0.42, -1, "H", false, false};
+    return (ves_view){WIDTH, HEIGHT, 0.6, 0.42, -1, "H", false, false, false};
 }
 
 static ves_status refuse(ves_diag *diag, ves_status status, const char *what, const char *word)

@@ -66,6 +66,39 @@ static double bounds(const ves_figure *figure, double middle[3])
     return size > 0 ? size : 1;
 }
 
+/* Across the axis among those that are not up along which the viewer looks most: there grids have lines. */
+static void camera_cut(ves_camera *camera, int up)
+{
+    int e1 = (up + 1) % 3, e2 = (up + 2) % 3;
+    int along = fabs(camera->toward[e1]) > fabs(camera->toward[e2]) ? e1 : e2;
+    camera->cut[along] = camera->toward[along] > 0 ? 1 : -1;
+}
+
+/* How far beyond the cut. */
+static double beyond(const ves_camera *camera, const double x[3])
+{
+    return ves_dot(x, camera->cut) - ves_dot(camera->target, camera->cut);
+}
+
+/* Corners beyond the cut are moved onto it; false: all are. rim: the sides that then lie on it. */
+static bool piece_cut(const ves_scene *scene, double x[4][3], unsigned char *rim)
+{
+    static const int side[4][2] = {{0, 3}, {1, 2}, {0, 1}, {3, 2}};
+    const ves_camera *camera = &scene->camera;
+    bool on[4] = {false};
+    int count = 0;
+    *rim = 0;
+    if (!(ves_dot(camera->cut, camera->cut) > 0)) return true;
+    for (int k = 0; k < 4; k++) {
+        double by = beyond(camera, x[k]);
+        if (!(by > -1e-9 * scene->size)) continue;
+        for (int c = 0; c < 3; c++) x[k][c] -= by * camera->cut[c];
+        on[k] = true, count++;
+    }
+    for (int k = 0; k < 4; k++) *rim |= (unsigned char)((on[side[k][0]] && on[side[k][1]]) << k);
+    return count < 4;
+}
+
 /* Paper coordinates; returns how far the point is towards the viewer. */
 static double project(const ves_camera *camera, const double x[3], double *px, double *py)
 {
@@ -187,8 +220,10 @@ static void piece_add(const maker *m, int i, int j, int a, int b)
     ves_scene *scene = m->scene;
     ves_piece *piece = &scene->piece[scene->pieces];
     double x[4][3], middle[3], normal[3], one[3], two[3], px, py;
-    for (int k = 0; k < 4; k++) {
+    for (int k = 0; k < 4; k++)
         blend3(m, p->X, i, j, (double)(a + du[k]) / m->fine[0], (double)(b + dv[k]) / m->fine[1], x[k]);
+    if (!piece_cut(scene, x, &piece->rim)) return;
+    for (int k = 0; k < 4; k++) {
         project(&scene->camera, x[k], &px, &py);
         if (!isfinite(px + py)) return;
         piece->x[k] = (float)px, piece->y[k] = (float)py;
@@ -236,11 +271,12 @@ static void triangle_add(const maker *m, double (*const x)[3], ves_rgb base, con
     for (int a = 0; a < fine[0]; a++)
         for (int b = 0; b < fine[1]; b++) {
             ves_piece *piece = &scene->piece[scene->pieces];
-            double at[3];
-            bool good = true;
+            double edge[4][3], at[3];
+            for (int k = 0; k < 4; k++)
+                triangle_at(x, (double)(a + ds[k]) / fine[0], (double)(b + dt[k]) / fine[1], edge[k]);
+            bool good = piece_cut(scene, edge, &piece->rim);
             for (int k = 0; k < 4; k++) {
-                triangle_at(x, (double)(a + ds[k]) / fine[0], (double)(b + dt[k]) / fine[1], at);
-                project(&scene->camera, at, &px, &py);
+                project(&scene->camera, edge[k], &px, &py);
                 good = good && isfinite(px + py);
                 piece->x[k] = (float)px, piece->y[k] = (float)py;
             }
@@ -309,7 +345,7 @@ static void line_add(const maker *m, double *const point[3], const int end[2], d
     for (int k = 0; k < 2; k++) {
         double x[3] = {point[0][end[k]], point[1][end[k]], point[2][end[k]]};
         depth += project(&scene->camera, x, &px, &py) / 2;
-        if (!isfinite(px + py)) return;
+        if (!isfinite(px + py) || (!spine && beyond(&scene->camera, x) > 1e-9 * scene->size)) return;
         piece->x[k] = (float)px, piece->y[k] = (float)py;
     }
     piece->corners = 2, piece->lines = 0, piece->spine = spine;
@@ -366,7 +402,10 @@ static void maker_init(maker *m, ves_scene *scene, const ves_figure *figure, int
 {
     const ves_figure_patch *p = &figure->patch[patch];
     double u = line_length(p, 0), v = line_length(p, 1);
-    *m = (maker){.scene = scene, .p = p, .base = ves_colour_patch(patch), .closed = figure->closed};
+    *m = (maker){.scene = scene,
+                 .p = p,
+                 .base = ves_colour_patch(patch),
+                 .closed = figure->closed && !(ves_dot(scene->camera.cut, scene->camera.cut) > 0)};
     m->plane = scene->plane ? scene->plane[patch] : NULL;
     m->fine[0] = refinement(u / p->nu * scene->camera.scale, cell);
     m->fine[1] = refinement(v / p->nv * scene->camera.scale, cell);
@@ -494,6 +533,7 @@ static void cameras_set(ves_scene *scene, const ves_figure *const *figure, int s
         if (up < 0 || up > 2) up = natural_up(figure[s], scene[s].size);
         camera->distance = view->orthographic ? 0 : 4.6 * scene[s].size;
         camera_aim(camera, view, up);
+        if (view->cut && figure[s]->closed) camera_cut(camera, up);
         camera_fit(camera, figure[s], &frame[s]);
         scale = fmin(scale, camera->scale);
     }

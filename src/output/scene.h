@@ -33,7 +33,8 @@ double ves_step_below(double step);
 typedef struct ves_camera {
     double right[3], up[3], toward[3]; /* unit vectors; toward: from the shape to the eye */
     double target[3], distance;        /* of the eye from target; 0: parallel projection */
-    double scale, x, y;                /* pixels per length at the target, and where the target is */
+    double cut[3];      /* unit vector: what lies on this side of target is cut away; 0: nothing */
+    double scale, x, y; /* pixels per length at the target, and where the target is */
 } ves_camera;
 
 enum { VES_LOW_U = 1, VES_HIGH_U = 2, VES_LOW_V = 4, VES_HIGH_V = 8 };
@@ -45,6 +46,7 @@ typedef struct ves_piece {
     float r, g, b;
     int order;                    /* of making */
     unsigned char corners, lines; /* lines: which sides lie on the drawn mesh */
+    unsigned char rim;            /* which sides lie where the shape is cut */
     bool spine;
 } ves_piece;
 

@@ -10,6 +10,7 @@
 #include "study/lock.h"
 #include "study/run.h"
 #include "study/sweep_folder.h"
+#include "study/sweep_gallery.h"
 #include "study/sweep_point.h"
 #include "study/sweep_report.h"
 #include "study/team.h"
@@ -308,6 +309,7 @@ static ves_status work(whole *w)
             read = ves_diag_fail(w->diag, VES_MEMORY);
         w->told = read == VES_OK;
         if (read == VES_OK) read = ves_sweep_report_write(&w->shown, w->diag);
+        if (read == VES_OK && status == VES_OK) read = ves_sweep_gallery_write(&w->task, w->diag);
         if (read != VES_OK) status = read;
     }
     return status;

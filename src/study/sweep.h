@@ -11,7 +11,8 @@
  *     times.jsonl          what clocks say of each
  *     sweep.csv            the same as a table in the units of the file
  *     sweep.png            the objective over the first parameter
- *     shapes/NNNN.vtp      the shape of point NNNN        shapes.pvd   the best ones, the first parameter as time */
+ *     shapes/NNNN.vtp      the shape of point NNNN        shapes.pvd   the best ones, the first parameter as time
+ *     shapes.png           some of the best ones side by side */
 #ifndef VES_STUDY_SWEEP_H
 #define VES_STUDY_SWEEP_H
 

@@ -205,3 +205,12 @@ int ves_sweep_turned(const ves_sweep *s, int index)
         before >= 0 && before / s->count == index / s->count && s->point[before].kind != s->point[index].kind;
     return turned ? before : -1;
 }
+
+int ves_sweep_best_at(const ves_sweep *s, int second, int place)
+{
+    for (int w = 0; w < s->walks; w++) {
+        int index = ves_sweep_point_at(s, w, place);
+        if (s->walk[w].second == second && s->point[index].done && s->point[index].best) return index;
+    }
+    return -1;
+}

@@ -431,3 +431,22 @@ ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, int from,
     ves_arena_destroy(&s.scratch);
     return status;
 }
+
+ves_status ves_sweep_point_figure(const ves_sweep_task *task, int index, ves_figure **figure)
+{
+    const ves_sweep *sweep = task->sweep;
+    search s = {.task = task, .index = index, .diag = ves_diag_create()};
+    ves_problem *problem = NULL;
+    ves_plan *plan = NULL;
+    *figure = NULL;
+    s.value = value_of(&s);
+    s.from = sweep->point[index].column + sweep->first[VES_SWEEP_VARIABLE];
+    ves_status status = s.diag ? read_here(&s, &problem) : VES_MEMORY;
+    if (status == VES_OK) status = ves_plan_create(problem, NULL, &plan, NULL);
+    if (status == VES_OK) status = ves_plan_figure(plan, s.from, 0, 0, figure, NULL);
+    ves_plan_destroy(plan);
+    ves_problem_destroy(problem);
+    ves_diag_destroy(s.diag);
+    ves_arena_destroy(&s.scratch);
+    return status;
+}

@@ -3,6 +3,7 @@
 #define VES_STUDY_SWEEP_POINT_H
 
 #include "study/sweep.h"
+#include "vesica/figure.h"
 
 typedef struct ves_sweep_task {
     const ves_sweep *sweep;
@@ -19,5 +20,8 @@ ves_status ves_sweep_branch_check(const ves_sweep_task *task, int branch, ves_di
  * negative for faults. diag is for this point alone. */
 ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, int from, ves_arena *arena,
                                 ves_diag *diag);
+
+/* The shape of a good point, owned by the caller. A positive status: it has none. */
+ves_status ves_sweep_point_figure(const ves_sweep_task *task, int index, ves_figure **figure);
 
 #endif

@@ -27,6 +27,9 @@ ves_status ves_sweep_report_write(const ves_sweep *sweep, ves_diag *diag);
 /* sweep.png. Of nothing that has a value there is none. */
 ves_status ves_sweep_chart_write(const ves_sweep *sweep, ves_diag *diag);
 
+/* The point that is marked as the best at one place of one second value; -1: all are lost. */
+int ves_sweep_best_at(const ves_sweep *sweep, int second, int place);
+
 /* At how many places two walks of one second value end at different optima; the first and the last of them. */
 int ves_sweep_apart(const ves_sweep *sweep, int walk, int other, int *first, int *last);
 
