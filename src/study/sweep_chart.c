@@ -136,21 +136,26 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Where the best goes over from one walk to another. */
+/* Where the best goes over from one walk to another; but once where several do, as far as can be told apart. */
 static bool guides_make(drawer *d, int panel, ves_chart *chart)
 {
     const ves_sweep *s = d->sweep;
+    const double grain = 1e-5 * (chart->x.high - chart->x.low);
     ves_chart_guide *guide = ves_arena_take(&d->arena, (size_t)(seconds_of(s) * s->count), sizeof *guide);
     ves_sweep_change c;
+    int found = 0;
     if (!guide) return false;
     for (int j = 0; j < seconds_of(s); j++)
-        for (int place = 0; ves_sweep_change_find(s, j, place, &c); place = c.next) {
-            if ((is_split(s) && j != panel) || !isfinite(c.at)) continue;
-            char *name = ves_arena_format(&d->arena, "%.4g", c.at / d->factor);
-            if (!name) return false;
-            guide[chart->guides++] = (ves_chart_guide){.name = name, .x = c.at / d->factor};
-        }
-    qsort(guide, (size_t)chart->guides, sizeof *guide, compare);
+        for (int place = 0; ves_sweep_change_find(s, j, place, &c); place = c.next)
+            if ((!is_split(s) || j == panel) && isfinite(c.at)) guide[found++].x = c.at / d->factor;
+    qsort(guide, (size_t)found, sizeof *guide, compare);
+    for (int k = 0; k < found; k++) {
+        const double x = fabs(guide[k].x) < grain ? 0 : guide[k].x;
+        if (chart->guides && x - guide[chart->guides - 1].x < grain) continue;
+        char *name = ves_arena_format(&d->arena, "%.4g", x);
+        if (!name) return false;
+        guide[chart->guides++] = (ves_chart_guide){.name = name, .x = x};
+    }
     chart->guide = guide;
     return true;
 }
