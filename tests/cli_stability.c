@@ -1,5 +1,6 @@
 /* vesica stability, as a user meets it. */
 #include <criterion/criterion.h>
+#include <unistd.h>
 
 #include "program.h"
 
@@ -44,6 +45,9 @@ Test(cli_stability, what_it_prints_and_its_exit_code)
     expect(vesica(NULL, "stability sphere.yaml --set c=6.5 --modes 2"), 1, "unstable", NULL, "unstable");
     expect(vesica(NULL, "stability sphere.yaml --set c=6.5 --json --modes 0"), 1, "\"verdict\": \"unstable\"",
            NULL, "json");
+    expect(vesica(NULL, "stability sphere.yaml --modes 2 --png modes.svg"), 0, NULL, NULL, "a picture");
+    cr_expect(access("modes.svg", R_OK) == 0);
+    expect(vesica(NULL, "stability sphere.yaml --modes 0 --png modes.gif"), 2, NULL, "modes.gif", "gif");
     expect(vesica(NULL, "stability sphere.yaml --modes 13"), 2, NULL, "--modes needs", "13");
     expect(vesica(NULL, "stability sphere.yaml --functions 5"), 2, NULL, "--functions needs", "5");
     expect(vesica(NULL, "stability"), 2, NULL, "something is missing", "nothing");
@@ -104,7 +108,13 @@ Test(cli_stability, runs_their_optima_and_points_of_sweeps)
     cr_expect(part.code == 0, "%s%s", part.out, part.err);
     done(&whole), done(&part);
     expect(vesica(NULL, "stability s:7"), 2, NULL, "there is no point 7", "s:7");
-    expect(vesica(NULL, "stability s"), 2, NULL, "\"s\" is a sweep: name one of its points, s:17", "s");
+    write_file("large.yaml", ROUND "minimize: E\nconstraints: [area >= 1000]\n");
+    expect(vesica(NULL, "run large.yaml --out large --progress none"), 1, NULL, NULL, "infeasible");
+    expect(vesica(NULL, "stability large --modes 1"), 0,
+           "not feasible: area >= 1000 is missed by 0.99 of its size", NULL, "infeasible");
+    expect(vesica(NULL, "stability ."), 2, NULL, "\".\" is not the folder of a finished run", "no run");
+    expect(vesica(NULL, "stability nowhere:3"), 2, NULL, "cannot open \"nowhere:3\"", "nowhere");
+    expect(vesica(NULL, "stability s"), 2, NULL, "\"s\" is a sweep: name one of its points, s:0 to s:1", "s");
     root_remove();
 }
 

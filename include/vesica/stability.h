@@ -31,8 +31,18 @@ enum {
     VES_STABILITY_MODES = 12,
     VES_STABILITY_VALUES = 3,
     VES_STABILITY_FUNCTIONS = 96,
-    VES_STABILITY_HOLDS = 8
+    VES_STABILITY_HOLDS = 8,
+    VES_STABILITY_POINTS = 1024
 };
+
+/* The meridian that the eigenvalues belong to, from pole to pole, and its lowest modes: m. */
+typedef struct ves_stability_profile {
+    int points; /* not more than there are; of more nodes every second, third ... */
+    double r[VES_STABILITY_POINTS], z[VES_STABILITY_POINTS]; /* from the axis, and along it */
+    double wr[VES_STABILITY_MODES + 1]
+             [VES_STABILITY_POINTS]; /* where v = 0: the displacement along the normal, e = 1 */
+    double wz[VES_STABILITY_MODES + 1][VES_STABILITY_POINTS];
+} ves_stability_profile;
 
 /* All zeros: modes 0 .. 4, and functions as they are needed. */
 typedef struct ves_stability_options {
@@ -44,6 +54,8 @@ typedef struct ves_stability_options {
      * can, along the lowest mode by e = 1 (see above). Of n = along, or, if that is negative, of the softest. NULL: none. */
     double *change;
     int along;
+
+    ves_stability_profile *profile; /* receives it; NULL: nobody wants it */
 } ves_stability_options;
 
 /* By the lowest eigenvalue: above its error, within it, below minus it. Unknown: there is no stationary shape near the
@@ -54,7 +66,8 @@ typedef enum ves_firmness { VES_FIRM, VES_SOFT, VES_UNSTABLE, VES_UNKNOWN } ves_
 typedef struct ves_firmness_mode {
     int n, values;
     double value[VES_STABILITY_VALUES]; /* ascending */
-    double error[VES_STABILITY_VALUES]; /* what fewer functions on a coarser grid change, and what differences leave */
+    double error
+        [VES_STABILITY_VALUES]; /* what fewer functions on a coarser grid change, and what differences leave */
     double parity
         [VES_STABILITY_VALUES]; /* +1: the amplitude is the same on both halves of the meridian, -1: opposite */
     ves_firmness firmness;

@@ -4,6 +4,7 @@
 #include "app/app.h"
 #include "app/follow.h"
 #include "app/table.h"
+#include "output/modes.h"
 #include "vesica/stability.h"
 
 /* --- JSON --- */
@@ -167,6 +168,27 @@ static void verdict_print(const ves_problem *p, const ves_stability *s, FILE *ou
                 soft->error[0] / factor);
 }
 
+/* Of a design that is not feasible: the constraint that is missed most. */
+static void missed_print(const ves_problem *p, FILE *out)
+{
+    const ves_plan_options grid = {{p->quadrature[0], p->quadrature[1]}};
+    ves_arena arena = {0};
+    ves_plan *plan = NULL;
+    ves_design d = {.feasible = true};
+    double *x = ves_arena_take(&arena, (size_t)p->variables + 1, sizeof *x);
+    for (int k = 0; x && k < p->variables; k++) x[k] = p->variable[k].start;
+    ves_status status = x ? ves_plan_create(p, &grid, &plan, NULL) : VES_MEMORY;
+    if (status == VES_OK) status = ves_plan_measure(plan, x, 0, &d);
+    int worst = 0;
+    for (int k = 1; status == VES_OK && k < p->constraints; k++)
+        if (d.side[k].violation > d.side[worst].violation) worst = k;
+    if (status == VES_OK && !d.feasible)
+        fprintf(out, "  design      not feasible: %s is missed by %.2g of its size\n",
+                p->constraint[worst].text, d.side[worst].violation);
+    ves_plan_destroy(plan);
+    ves_arena_destroy(&arena);
+}
+
 static void screen(const ves_problem *p, const ves_stability *s, FILE *out)
 {
     fprintf(out, "%s\n\n", *p->title ? p->title : p->name);
@@ -177,7 +199,27 @@ static void screen(const ves_problem *p, const ves_stability *s, FILE *out)
     fprintf(out, "  functions   %d of the meridian, %d x %d nodes a patch\n", s->functions, s->quadrature[0],
             s->quadrature[1]);
     if (s->values || s->flat) own_print(p, s, out);
+    missed_print(p, out);
     verdict_print(p, s, out);
+}
+
+/* --- the picture --- */
+
+static ves_status picture(app *a, const ves_problem *p, const ves_stability *s,
+                          const ves_stability_profile *at)
+{
+    const ves_shown *shown = &p->objective_shown;
+    ves_modes_panel panel[VES_STABILITY_MODES + 1];
+    for (int k = 0; k < s->modes; k++) {
+        const ves_firmness_mode *m = &s->mode[k];
+        panel[k] = (ves_modes_panel){.n = m->n, .wr = at->wr[m->n], .wz = at->wz[m->n]};
+        snprintf(panel[k].caption[0], sizeof panel[k].caption[0], "n = %d: %.4g %s", m->n,
+                 m->value[0] / shown->factor, shown->unit);
+        snprintf(panel[k].caption[1], sizeof panel[k].caption[1], "%s%s%s", ves_firmness_text(m->firmness),
+                 *parity_text(m->parity[0]) ? ", " : "", parity_text(m->parity[0]));
+    }
+    const ves_modes modes = {p->title, at->points, at->r, at->z, s->modes, panel};
+    return ves_modes_write(&modes, a->options.png, a->diag);
 }
 
 int app_stability(app *a)
@@ -192,7 +234,13 @@ int app_stability(app *a)
                                      .along = a->options.along};
     if (a->options.follows)
         options.change = ves_arena_take(&a->arena, (size_t)opened.problem->variables, sizeof(double));
+    if (a->options.png) options.profile = ves_arena_take(&a->arena, 1, sizeof *options.profile);
+    if (a->options.png && !options.profile) {
+        ves_study_close(&opened);
+        return app_fail(a, VES_MEMORY, "%s", ves_status_text(VES_MEMORY));
+    }
     ves_status status = ves_stability_find(opened.problem, &options, &found, a->diag);
+    if (status == VES_OK && options.profile) status = picture(a, opened.problem, &found, options.profile);
     app_say(a);
     code = app_code(status);
     if (status == VES_OK) {

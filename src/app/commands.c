@@ -37,11 +37,12 @@ const app_command app_commands[] = {
      "`vesica check`, and by a run for its bests."},
     {"stability", "stability FILE|RUN",
      "is the shape a minimum among all shapes near it? Which way is it softest?", 1, 1,
-     PROBLEM "|modes|functions|follow|no-files", app_stability,
+     PROBLEM "|modes|functions|follow|no-files|png", app_stability,
      "Closed surfaces of revolution. docs/stability.md tells what the eigenvalues are. Exit code: 0 when "
      "none is "
      "negative\n"
-     "beyond its error, 1 when one is or nobody can tell."},
+     "beyond its error, 1 when one is or nobody can tell. --png draws the meridian and the lowest mode of "
+     "each n."},
     {"journal", "journal RUN", "all evaluations of a run, one a line", 1, 1, "to|png", app_journal,
      "In SI units, as in result.json, with the sign of the goal. A constraint's column says by how much it "
      "is missed,\n"

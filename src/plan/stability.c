@@ -245,8 +245,39 @@ static void mode_tell(work *w, ves_firmness_mode *mode)
     }
 }
 
-static ves_status modes_find(work *w, int modes, ves_stability *out)
+/* One node of a patch, counted from the first pole. */
+static void profile_node(const work *w, int patch, int node, ves_stability_profile *p)
 {
+    const plan_variation *v = &w->v;
+    const plan_meridian *m = &v->shape.meridian[patch];
+    const plan_metric *g = &v->metric[patch];
+    const int i = m->S[1][0] > 0 ? node : m->nu - 1 - node, at = p->points++;
+    double along = 0;
+    for (int f = 0; f < v->functions; f++)
+        along += w->y[f] * v->unit * v->unit * ves_variation_normal(v, f, patch, i);
+    p->r[at] = g->r[i], p->z[at] = g->z[i];
+    p->wr[v->n][at] = along * g->Nr[i], p->wz[v->n][at] = along * g->Nz[i];
+}
+
+/* The lowest mode of the n at hand. */
+static void profile_tell(work *w, ves_stability_profile *p)
+{
+    const plan_variation *v = &w->v;
+    int nodes = 0, at = 0;
+    memset(w->y, 0, sizeof(double) * (size_t)v->functions);
+    if (w->spectrum.count) memcpy(w->y, w->spectrum.vector, sizeof(double) * (size_t)v->functions);
+    ves_spectrum_colour(&w->spectrum, w->y);
+    for (int k = 0; k < v->shape.patches; k++) nodes += v->shape.meridian[k].nu;
+    const int stride = (nodes + VES_STABILITY_POINTS - 1) / VES_STABILITY_POINTS;
+    p->points = 0;
+    for (int k = 0; k < v->shape.patches; k++)
+        for (int i = 0; i < v->shape.meridian[k].nu; i++)
+            if (at++ % stride == 0) profile_node(w, k, i, p);
+}
+
+static ves_status modes_find(work *w, const ves_stability_options *o, ves_stability *out)
+{
+    const int modes = o->modes;
     for (int n = 0; n <= modes; n++) {
         if (n) {
             ves_variation_mode(&w->v, n);
@@ -254,6 +285,7 @@ static ves_status modes_find(work *w, int modes, ves_stability *out)
             VES_TRY(second(w));
         }
         mode_tell(w, &out->mode[n]);
+        if (o->profile) profile_tell(w, o->profile);
     }
     out->modes = modes + 1;
     return VES_OK;
@@ -345,7 +377,7 @@ static ves_status with_plan(ves_plan *plan, const ves_stability_options *o, ves_
         status = work_create(&w, &arena);
         out->radius = w.v.unit;
         if (status == VES_OK) status = stationary_find(&w, out);
-        if (status == VES_OK) status = modes_find(&w, o->modes, out);
+        if (status == VES_OK) status = modes_find(&w, o, out);
         if (status == VES_OK && o->change) status = follow(&w, o, out);
         out->held = w.v.conditions;
         for (int k = 0; k < w.v.conditions && k < VES_STABILITY_HOLDS; k++)

@@ -323,6 +323,11 @@ static void metric_make(plan_variation *v)
     }
 }
 
+double ves_variation_normal(const plan_variation *v, int function, int patch, int i)
+{
+    return function_at(v, 1, patch, 0, function)[i] * v->metric[patch].share[i];
+}
+
 /* The squares of cosines are one half on average. */
 static double around(const plan_variation *v)
 {

@@ -53,6 +53,9 @@ ves_status ves_variation_slope(plan_variation *v, double objective, const double
 ves_status ves_variation_hessian(plan_variation *v, double *H);
 void ves_variation_mass(plan_variation *v, double *M);
 
+/* Of one function, displaced by 1, the part along the normal, at node i of a patch; after ves_variation_mass. */
+double ves_variation_normal(const plan_variation *v, int function, int patch, int i);
+
 /* Motions of the whole, a change of size among them: do objective and conditions not see it? And the products of its
  * normal displacement with those of the functions. */
 typedef enum plan_symmetry {

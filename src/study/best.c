@@ -26,16 +26,31 @@ static bool has(const char *folder, const char *name, ves_arena *arena)
 
 /* --- runs --- */
 
+/* The lines of points.jsonl are its points, from 0. */
+static ves_status sweep_refuse(const char *sweep, ves_arena *arena, ves_diag *diag)
+{
+    char *path = ves_folder_path(sweep, "points.jsonl", arena), *text = NULL;
+    size_t length;
+    int count = 0;
+    ves_status status = path ? ves_study_load(path, arena, &text, &length) : VES_MEMORY;
+    if (status == VES_MEMORY) return ves_diag_fail(diag, status);
+    for (const char *at = text; status == VES_OK && (at = strchr(at, '\n')); at++) count++;
+    if (count > 1)
+        return ves_diag_add(
+            diag, VES_ERROR, VES_USAGE, NOWHERE,
+            "\"%s\" is a sweep: name one of its points, %s:0 to %s:%d; sweep.csv tells what each is", sweep,
+            sweep, sweep, count - 1);
+    return ves_diag_add(diag, VES_ERROR, VES_USAGE, NOWHERE,
+                        "\"%s\" is a sweep: name its point, %s:0, if it has come so far", sweep, sweep);
+}
+
 static ves_status result_read(const char *run, ves_arena *arena, const ves_node **root, ves_diag *diag)
 {
     char *path = ves_folder_path(run, "result.json", arena);
     if (!path) return ves_diag_fail(diag, VES_MEMORY);
     char *sweep = ves_folder_path(run, "sweep.json", arena);
     if (!sweep) return ves_diag_fail(diag, VES_MEMORY);
-    if (access(path, F_OK) && !access(sweep, F_OK))
-        return ves_diag_add(diag, VES_ERROR, VES_USAGE, NOWHERE,
-                            "\"%s\" is a sweep: name one of its points, %s:17; sweep.csv has their numbers",
-                            run, run);
+    if (access(path, F_OK) && !access(sweep, F_OK)) return sweep_refuse(run, arena, diag);
     ves_status status = ves_json_load(path, arena, root);
     if (status == VES_MEMORY) return ves_diag_fail(diag, VES_MEMORY);
     if (status == VES_IO)
