@@ -166,3 +166,17 @@ Test(cli_kinds, a_branch_has_its_values_of_the_second_parameter)
            "no branch is walked at these values", "none");
     root_remove();
 }
+
+/* Where others have found the same change it stands beside. */
+Test(cli_kinds, a_change_that_is_known)
+{
+    root_make();
+    write_file(
+        "w.yaml",
+        WELL(SIDES) "sweep:\n  over: {t: {from: -0.4, to: 0.5, step: 0.3}}\n"
+                    "  known: [{from: right, to: left, at: 0.01, source: by symmetry}]\n"
+                    "  branches: {right: {set: {x: 1}, kind: right}, left: {set: {x: -1}, kind: left}}\n");
+    expect(vesica(NULL, "sweep w.yaml --out w"), 0, "(0.01: by symmetry)\n", NULL, "known");
+    expect(vesica(NULL, "sweep w.yaml --out j --json"), 0, "\"known\": 0.01", NULL, "json");
+    root_remove();
+}

@@ -233,6 +233,7 @@ static void changes(const ves_sweep *s, int second, FILE *out)
     ves_sweep_change c;
     for (int place = 0; ves_sweep_change_find(s, second, place, &c); place = c.next) {
         char number[32];
+        const ves_sweep_known *known = ves_sweep_change_known(s, &c);
         const bool gone = is_lost(s, c.from, c.next), come = is_lost(s, c.to, c.place);
         fprintf(out, "  changes    the best goes from %s to %s between ", s->walk[c.from].name,
                 s->walk[c.to].name);
@@ -240,7 +241,10 @@ static void changes(const ves_sweep *s, int second, FILE *out)
         if (c.next > c.place + 1) fputs(", all lost between", out);
         if (isfinite(c.at))
             fprintf(out, ", their lines cross at %s", app_screen_number(c.at / factor, number));
-        else if (gone || come)
+        if (known)
+            fprintf(out, " (%s%s%s)", app_screen_number(known->at / factor, number),
+                    *known->source ? ": " : "", known->source);
+        if (!isfinite(c.at) && (gone || come))
             fprintf(out, ": no crossing, %s is lost there%s", s->walk[gone ? c.from : c.to].name,
                     gone && come ? ", and the other before" : "");
         fputc('\n', out);

@@ -223,6 +223,13 @@ typedef struct ves_sweep_branch {
     const bool *skips; /* [values of the second parameter, or 1] it is not walked there; NULL: everywhere */
 } ves_sweep_branch;
 
+/* What others have found: where the best goes over from one branch to another. */
+typedef struct ves_sweep_known {
+    int from, to;       /* branches */
+    double at;          /* of the first parameter */
+    const char *source; /* or "" */
+} ves_sweep_known;
+
 typedef struct ves_sweep_def {
     ves_mark mark;
     int axes;
@@ -233,6 +240,8 @@ typedef struct ves_sweep_def {
     ves_search_options search; /* of every point but the first of a walk */
     bool begins;               /* first holds; else the first point of a walk is searched as the file says */
     ves_search_options first;
+    int knowns;
+    const ves_sweep_known *known;
     double
         finest; /* where a walk would lose its branch it takes smaller steps, down to this; 0: it does not */
 } ves_sweep_def;

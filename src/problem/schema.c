@@ -311,11 +311,23 @@ static const ves_entry branch[] = {
     {{"branch", KIND(VES_MAP), .about = "one family of shapes: where its walks begin"}, "oblate: {set: {zn: 0.4, R: 1.3}}", branch_keys},
     END};
 
+static const ves_entry known_keys[] = {
+    {{"from", VES_TEXT, .required = true, .about = "a branch"}, "from: oblate", NULL},
+    {{"to", VES_TEXT, .required = true, .about = "the one that is better beyond"}, "to: prolate", NULL},
+    {{"at", VES_NUMBER, .required = true, .fallback = NAN, .about = "the value of the first parameter"}, "at: 0.651", NULL},
+    {{"source", VES_TEXT, .about = "who says so"}, "source: Seifert 1991", NULL},
+    END};
+
+static const ves_entry known[] = {
+    {{"known", KIND(VES_MAP), .about = "one change of the best branch"}, "{from: oblate, to: prolate, at: 0.651}", known_keys},
+    END};
+
 static const ves_entry sweep_keys[] = {
     {{"over", KIND(VES_NAMED), .required = true, .about = "one or two parameters and their values"}, "over: {nu: {from: 0.5, to: 1, count: 51}}", swept},
     {{"branches", KIND(VES_NAMED), .about = "families of shapes that are walked each by itself; unless given, one, which begins where the file does"}, "branches: {oblate: {set: {zn: 0.4, R: 1.3}}, prolate: {}}", branch},
     {{"search", KIND(VES_LIST), .words = "auto", .about = "the search at every point of a walk but its first, from the best of the point before; a polish unless given"}, "search: [{polish: {}}]", ves_schema_stage},
     {{"first", KIND(VES_LIST), .words = "auto", .about = "the search at the first point of a walk; unless given, that of the file, or, with branches, which it might leave, that of all points"}, "first: [{anneal: {}}, {polish: {}}]", ves_schema_stage},
+    {{"known", KIND(VES_LIST), .about = "where others have found that the best goes over from one branch to another: told beside what the sweep finds"}, "known: [{from: oblate, to: prolate, at: 0.651, source: Seifert 1991}]", known},
     {{"finest", VES_NUMBER, .fallback = NAN, .about = "where a walk would lose its branch its steps are halved, down to this, in the first parameter: the branch is followed as far as it goes, and the point that is lost all the same says how far (`reached`). Unless given, steps are what `over` says"}, "finest: 0.001", NULL},
     END};
 

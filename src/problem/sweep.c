@@ -12,6 +12,7 @@ static const double MISS = 1e-6;
 typedef struct axes {
     ves_reader *reader;
     ves_sweep_def *sweep;
+    ves_names branches;
 } axes;
 
 static const ves_entry *table_of(const char *name)
@@ -274,14 +275,17 @@ static void branch_read(axes *a, const ves_named *named, ves_sweep_branch *branc
 
 static void branches_read(axes *a, const ves_node *node)
 {
-    ves_names names;
+    ves_names *names = &a->branches;
     if (!node) return;
-    ves_names_read(a->reader, node, "branch", false, &names);
-    ves_sweep_branch *branch = ves_arena_take(a->reader->arena, (size_t)names.count, sizeof *branch);
+    ves_names_read(a->reader, node, "branch", false, names);
+    ves_sweep_branch *branch = ves_arena_take(a->reader->arena, (size_t)names->count, sizeof *branch);
     if (!ves_reader_memory(a->reader, branch)) return;
-    for (int k = 0; k < names.count; k++) branch_read(a, &names.name[k], &branch[k]);
+    for (int k = 0; k < names->count; k++) {
+        names->name[k].index = k;
+        branch_read(a, &names->name[k], &branch[k]);
+    }
     a->sweep->branch = branch;
-    a->sweep->branches = names.count;
+    a->sweep->branches = names->count;
 }
 
 /* Of the dimension of the first parameter. */
@@ -301,6 +305,40 @@ static void finest_read(axes *a, const ves_node *node)
                          "\"finest\" must be > 0, got %g: it is the length of a step", value);
 }
 
+static void known_read(axes *a, const ves_node *node, ves_sweep_known *known)
+{
+    ves_reader *reader = a->reader;
+    const ves_sweep_axis *axis = &a->sweep->axis[0];
+    ves_fields f;
+    *known = (ves_sweep_known){.source = ""};
+    if (!ves_fields_read(reader, node, table_of("known")->table, "known", &f)) return;
+    const ves_node *from = ves_fields_find(&f, "from"), *to = ves_fields_find(&f, "to"),
+                   *at = ves_fields_find(&f, "at"), *source = ves_fields_find(&f, "source");
+    const ves_named *one = from ? ves_names_ask(reader, &a->branches, from) : NULL,
+                    *two = to ? ves_names_ask(reader, &a->branches, to) : NULL;
+    if (one) known->from = one->index;
+    if (two) known->to = two->index;
+    if (at && a->sweep->axes && axis->parameter >= 0 && reader->problem->parameter[axis->parameter].formula)
+        known->at =
+            value_read(a, at, "at", ves_formula_dim(reader->problem->parameter[axis->parameter].formula));
+    if (source && ves_reader_word(reader, source, "text")) known->source = source->text;
+}
+
+static void knowns_read(axes *a, const ves_node *node)
+{
+    if (!node) return;
+    if (node->kind != VES_NODE_LIST) {
+        ves_reader_error(a->reader, VES_SYNTAX, node,
+                         "\"known\" must be a list [{from: ..., to: ..., at: ...}]");
+        return;
+    }
+    ves_sweep_known *known = ves_arena_take(a->reader->arena, (size_t)node->count, sizeof *known);
+    if (!ves_reader_memory(a->reader, known)) return;
+    for (int k = 0; k < node->count; k++) known_read(a, node->item[k], &known[k]);
+    a->sweep->known = known;
+    a->sweep->knowns = node->count;
+}
+
 void ves_reader_sweep(ves_reader *reader, const ves_fields *root)
 {
     const ves_node *node = ves_fields_find(root, "sweep");
@@ -310,13 +348,14 @@ void ves_reader_sweep(ves_reader *reader, const ves_fields *root)
         return;
     ves_sweep_def *sweep = ves_arena_take(reader->arena, 1, sizeof *sweep);
     if (!ves_reader_memory(reader, sweep)) return;
-    axes a = {reader, sweep};
+    axes a = {.reader = reader, .sweep = sweep};
     *sweep = (ves_sweep_def){.mark = ves_reader_mark(reader, node), .forth = true};
     sweep->search = ves_search_options_default();
     sweep->search.stages = 1;
     sweep->search.stage[0] = (ves_stage){.kind = VES_STAGE_POLISH, .polish = ves_polish_default()};
     over_read(&a, ves_fields_find(&f, "over"));
     branches_read(&a, ves_fields_find(&f, "branches"));
+    knowns_read(&a, ves_fields_find(&f, "known"));
     finest_read(&a, ves_fields_find(&f, "finest"));
     const ves_node *search = ves_fields_find(&f, "search");
     const ves_node *first = ves_fields_find(&f, "first");

@@ -190,6 +190,20 @@ bool ves_sweep_change_find(const ves_sweep *s, int second, int place, ves_sweep_
     return false;
 }
 
+const ves_sweep_known *ves_sweep_change_known(const ves_sweep *s, const ves_sweep_change *change)
+{
+    static const double NEARBY = 0.1;
+    const ves_sweep_def *def = s->def;
+    const double *value = def->axis[0].value, range = fabs(value[def->axis[0].count - 1] - value[0]);
+    for (int k = 0; k < def->knowns; k++) {
+        const ves_sweep_known *known = &def->known[k];
+        if (known->from == s->walk[change->from].branch && known->to == s->walk[change->to].branch &&
+            fabs(known->at - change->at) <= NEARBY * range)
+            return known;
+    }
+    return NULL;
+}
+
 static bool is_measured(const ves_sweep *s, int index)
 {
     const ves_sweep_point *point = &s->point[index];

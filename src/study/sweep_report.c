@@ -62,6 +62,8 @@ static void changes_json(const ves_sweep *s, ves_json *json)
             ves_json_number(json, "behind", axis->value[c.place]);
             ves_json_number(json, "before", axis->value[c.next]);
             ves_json_number(json, "at", c.at);
+            const ves_sweep_known *known = ves_sweep_change_known(s, &c);
+            if (known) ves_json_number(json, "known", known->at);
             ves_json_end(json, '}');
         }
     ves_json_end(json, ']');

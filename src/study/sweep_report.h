@@ -18,6 +18,9 @@ typedef struct ves_sweep_change {
 /* The first change at `place` or behind it, of one second value. */
 bool ves_sweep_change_find(const ves_sweep *sweep, int second, int place, ves_sweep_change *change);
 
+/* What the file says that others have found of it, within a tenth of the values that are walked along; NULL: nothing. */
+const ves_sweep_known *ves_sweep_change_known(const ves_sweep *s, const ves_sweep_change *change);
+
 /* What `vesica sweep --json` says; inside an object. */
 void ves_sweep_json(const ves_sweep *sweep, ves_json *json);
 

@@ -17,10 +17,10 @@ near() {
     exit 1
   }
 }
-crossing() { sed -n "s/^  changes .*from $1, c0 = 0, .* to $2, c0 = 0, .* cross at //p" "$folder/screen"; }
+crossing() { sed -n "s/^  changes .*from $1, c0 = $3, .* to $2, c0 = $3, .* cross at \([0-9.]*\).*/\1/p" "$folder/screen"; }
 ending() { sed -n "s/^  ends  *$1, c0 = 0, $2, followed to nu = \([0-9.]*\);.*/\1/p" "$folder/screen"; }
-near "stomatocyte to oblate" "$(crossing stomatocyte oblate)" 0.5912 0.0005
-near "oblate to prolate" "$(crossing oblate prolate)" 0.6511 0.0005
-near "pear to prolate, c0 = 3" "$(sed -n 's/^  changes .*from pear, c0 = 3, .* to prolate, c0 = 3, .* cross at //p' "$folder/screen")" 0.8237 0.0005
+near "stomatocyte to oblate" "$(crossing stomatocyte oblate 0)" 0.5912 0.0005
+near "oblate to prolate" "$(crossing oblate prolate 0)" 0.6511 0.0005
+near "pear to prolate, c0 = 3" "$(crossing pear prolate 3)" 0.8237 0.0005
 near "end of the stomatocytes" "$(ending stomatocyte up)" 0.6609 0.002
 near "end of the oblates" "$(ending oblate down)" 0.5104 0.002
