@@ -11,7 +11,7 @@
 #include "study/folder.h"
 #include "study/run.h"
 
-enum { SENTENCE = 400, MESSAGE = 2000 };
+enum { SENTENCE = 400, MESSAGE = 2000, SMALL_U = 32, SMALL_V = 48 /* cells of a patch in a small picture */ };
 
 /* What may be left of the slope where a budget ended: in a flat valley the last digits take for ever. */
 static const double CONVERGED = 1e-3;
@@ -443,7 +443,7 @@ ves_status ves_sweep_point_figure(const ves_sweep_task *task, int index, ves_fig
     s.from = sweep->point[index].column + sweep->first[VES_SWEEP_VARIABLE];
     ves_status status = s.diag ? read_here(&s, &problem) : VES_MEMORY;
     if (status == VES_OK) status = ves_plan_create(problem, NULL, &plan, NULL);
-    if (status == VES_OK) status = ves_plan_figure(plan, s.from, 0, 0, figure, NULL);
+    if (status == VES_OK) status = ves_plan_figure(plan, s.from, SMALL_U, SMALL_V, figure, NULL);
     ves_plan_destroy(plan);
     ves_problem_destroy(problem);
     ves_diag_destroy(s.diag);

@@ -21,7 +21,7 @@ ves_status ves_sweep_branch_check(const ves_sweep_task *task, int branch, ves_di
 ves_status ves_sweep_point_find(const ves_sweep_task *task, int index, int from, ves_arena *arena,
                                 ves_diag *diag);
 
-/* The shape of a good point, owned by the caller. A positive status: it has none. */
+/* The shape of a good point, as fine as a small picture needs it, owned by the caller. A positive status: it has none. */
 ves_status ves_sweep_point_figure(const ves_sweep_task *task, int index, ves_figure **figure);
 
 #endif
