@@ -151,7 +151,7 @@ Test(cli_kinds, a_branch_has_its_values_of_the_second_parameter)
     root_make();
     write_file("w.yaml", WELL(SIDES) "sweep:\n  over: {t: [0, 0.5], k: [1, 2, 3]}\n"
                                      "  branches: {right: {set: {x: 1.2}, at: {k: [1, 3]}}, left: {set: {x: "
-                                     "-1.2}, at: {k: 2}}}\n");
+                                     "-1.2}, at: {k: {from: 1.5, to: 2}}}}\n");
     outcome o = vesica(NULL, "sweep w.yaml --out w");
     cr_expect(strstr(o.out, "  right, k = 1 ") && strstr(o.out, "  right, k = 3 ") &&
                   strstr(o.out, "  left, k = 2 ") && strstr(o.out, "right, k = 2") == NULL,

@@ -66,15 +66,16 @@ Test(vesicle, the_numbers_in_the_files_are_exact)
     }
 }
 
-/* The file with another nu, or what the name is of, as `vesica run FILE --set nu=...` has it. */
-static ves_run *run_file(const char *file, const char *name, double nu, ves_problem **problem)
+/* The file with c0 and another nu, or what the name is of, as `vesica run FILE --set nu=...` has it. */
+static ves_run *run_file(const char *file, const char *name, double nu, double c0, ves_problem **problem)
 {
-    char path[200], value[32];
+    char path[200], value[32], curved[32];
     ves_run *run = NULL;
     snprintf(path, sizeof path, "%s/problems/vesicle/%s.yaml", VESICA_SOURCE, file);
     snprintf(value, sizeof value, "%g", nu);
-    const ves_override set = {name, value};
-    const ves_read_options options = {.overrides = 1, .override = &set};
+    snprintf(curved, sizeof curved, "%g", c0);
+    const ves_override set[] = {{name, value}, {"c0", curved}};
+    const ves_read_options options = {.overrides = c0 == 0 ? 1 : 2, .override = set};
     cr_assert(ves_problem_read(path, &options, problem, NULL) == VES_OK, "%s", path);
     cr_assert(ves_run_create(*problem, NULL, NULL, &run, NULL) == VES_OK);
     cr_assert(run->any && run->feasible, "%s at %g: not feasible", file, nu);
@@ -146,7 +147,7 @@ static void compare(const family *f, const double *nu, int count, const bars *pa
         exact *e = exact_of(f, nu[k]);
         exact_solve(e, b);
         cr_expect(e->tail < 1e-6, "%s at %g: not resolved, %g", f->file, nu[k], e->tail);
-        ves_run *run = run_file(f->file, "nu", nu[k], &problem);
+        ves_run *run = run_file(f->file, "nu", nu[k], f->c0, &problem);
         double excess = run->best.objective / e->energy - 1, thick = fabs(slot(run, "zn") - slot(run, "zs"));
         cr_expect(excess <= part->energy, "%s at %g: %.8f, exactly %.8f: %.4f %% more", f->file, nu[k],
                   run->best.objective, e->energy, 100 * excess);
@@ -176,6 +177,18 @@ Test(vesicle, prolates)
 Test(vesicle, stomatocytes)
 {
     compare(&FAMILIES[2], (double[]){0.55, 0.58, 0.62, 0.65}, 4, &(bars){5e-4, 2e-2, 2e-2, 5e-3});
+    compare(&FAMILIES[2], (double[]){0.55, 0.52, 0.5}, 3, &(bars){5e-4, 2e-2, 2e-2, 5e-3});
+}
+
+/* A small spontaneous curvature changes the energies by a part of itself. */
+Test(vesicle, families_with_a_little_spontaneous_curvature)
+{
+    for (int k = 0; k < 3; k++) {
+        family f = FAMILIES[k];
+        f.c0 = 0.01;
+        compare(&f, &f.nu, 1,
+                &(bars){k == 2 ? 5e-4 : 1e-4, k == 2 ? 2e-2 : 2e-3, k == 2 ? 2e-2 : 2e-3, 5e-3});
+    }
 }
 
 /* c0 = 3, small energies: 1e-4 of 8 pi kappa is 4e-3 of the least one. */
@@ -203,7 +216,7 @@ Test(vesicle, models_of_the_bilayer)
         e->m = row[k].m, e->alpha = row[k].alpha, e->m0 = row[k].m0;
         memcpy(b, near_prolate, sizeof near_prolate);
         exact_solve(e, b);
-        ves_run *run = run_file(row[k].file, row[k].name, row[k].value, &problem);
+        ves_run *run = run_file(row[k].file, row[k].name, row[k].value, 0, &problem);
         cr_expect(e->tail < 1e-5 && run->best.objective > e->energy - 1e-6 &&
                       run->best.objective < e->energy * (1 + 1e-4),
                   "%s, %s = %g: %.8f, exactly %.8f (%g)", row[k].file, row[k].name, row[k].value,

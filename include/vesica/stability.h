@@ -4,8 +4,9 @@
  *
  * For closed surfaces of revolution and any objective and constraints made of measures that have gradients and read the
  * surface alone. The surface X is displaced by w(s) cos(n v) D(s, v), s the arc length of the meridian, w a sum of
- * Legendre functions of S, which runs from 0 to pi, half by the arc length and half by how far the meridian turns, D a smooth field across the surface; first variations are the exact gradients of the
- * measures, the second one their central differences. First w of n = 0 leads from the design, which is the best of few
+ * Legendre functions of S, which runs from 0 to pi, half by the arc length and half by how far the meridian turns, D a
+ * smooth field across the surface; first variations are the exact gradients of the measures, the second one their
+ * central differences. First w of n = 0 leads from the design, which is the best of few
  * variables, to the stationary shape beside it (Newton's method); eigenvalues are those of the Lagrangian there,
  *     objective - sum of multiplier times constraint,
  * on the displacements that keep, in first order, scale:, solve: and the constraints that are met with equality. Motions
@@ -83,6 +84,7 @@ typedef struct ves_stability {
         slope; /* how far the design is from stationary: the largest it falls by, per e (see above), at first order */
     bool relaxed;      /* the stationary shape was found: eigenvalues are its own, else those at the design */
     double stationary; /* the objective there */
+    double unsure;     /* of it: what fewer functions on a coarser grid tell otherwise */
     double moved;      /* e of the way there */
     int modes;
     ves_firmness_mode mode[VES_STABILITY_MODES + 1];

@@ -70,6 +70,7 @@ static void json_print(const ves_problem *p, const ves_stability *s, const doubl
     ves_json_number(&json, "objective", s->objective);
     ves_json_number(&json, "slope", s->slope);
     ves_json_number(&json, "stationary", s->stationary);
+    ves_json_number(&json, "unsure", s->unsure);
     ves_json_number(&json, "moved", s->moved);
     ves_json_number(&json, "R0", s->radius);
     own_json(p, s, &json);
@@ -134,8 +135,10 @@ static void stationary_print(const ves_problem *p, const ves_stability *s, FILE 
 {
     const double factor = p->objective_shown.factor;
     if (s->relaxed)
-        fprintf(out, "  stationary  %.9g; the design lies %.2g above it, a displacement of %.2g R0 away\n",
-                s->stationary / factor, (s->objective - s->stationary) / factor, s->moved);
+        fprintf(out,
+                "  stationary  %.9g +- %.1g; the design lies %.2g above it, a displacement of %.2g R0 away\n",
+                s->stationary / factor, s->unsure / factor, (s->objective - s->stationary) / factor,
+                s->moved);
     else
         fprintf(out,
                 "  stationary  no stationary shape near the design, whose slope is %.2g: eigenvalues at the "

@@ -480,7 +480,7 @@ static void conclusion(const ves_run *run, FILE *out)
     if (stopped) fputs("\n  interrupted: this is the best so far\n", out);
     if (!run->any)
         fputs("\n  no design could be measured\n", out);
-    else if (!run->feasible && run->best.violation > 0)
+    else if (!run->feasible && !run->best.feasible)
         fprintf(out, "\n  no design met all constraints: the least violation is %.2g\n", run->best.violation);
     else if (!run->feasible)
         fprintf(out, "\n  the result %s\n",

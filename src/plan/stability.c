@@ -405,6 +405,7 @@ static ves_status with_functions(const ves_problem *problem, const ves_stability
 /* Errors are what fewer functions, on a coarser grid, tell otherwise. */
 static void compare(const ves_stability *coarse, ves_stability *out)
 {
+    out->unsure = out->relaxed && coarse->relaxed ? fabs(out->stationary - coarse->stationary) : NAN;
     for (int n = 0; n < out->modes; n++) {
         ves_firmness_mode *m = &out->mode[n];
         for (int k = 0; k < m->values; k++) m->error[k] += fabs(m->value[k] - coarse->mode[n].value[k]);

@@ -297,8 +297,13 @@ static const ves_entry kind[] = {
     {{"kind", KIND(VES_CHECK), .about = "a formula of measures, variables and parameters that tells the designs of this name"}, "oblate: width > 1.05*depth", NULL},
     END};
 
+static const ves_entry branch_range[] = {
+    {{"from", VES_NUMBER, .required = true, .fallback = NAN, .about = "the least of them"}, "from: 0", NULL},
+    {{"to", VES_NUMBER, .required = true, .fallback = NAN, .about = "the largest"}, "to: 1", NULL},
+    END};
+
 static const ves_entry branch_at[] = {
-    {{"where", KIND(VES_SWEPT), .about = "a value of the parameter, or a list of them"}, "c0: [0, 3]", NULL},
+    {{"where", KIND(VES_SWEPT), .about = "a value of the parameter, a list of them, or all in a range"}, "c0: {from: 0, to: 1}", branch_range},
     END};
 
 static const ves_entry branch_keys[] = {

@@ -219,6 +219,17 @@ static bool swept(const ves_sweep_def *sweep, const char *name)
     return false;
 }
 
+/* {from: 0, to: 1}, both of them included. */
+static void range_ends(axes *a, const ves_node *node, ves_dim dim, double end[2])
+{
+    const ves_entry *table = ves_schema_find(table_of("branches")->table, "at")->table->table;
+    ves_fields f;
+    if (!ves_fields_read(a->reader, node, table, "at", &f)) return;
+    const ves_node *from = ves_fields_find(&f, "from"), *to = ves_fields_find(&f, "to");
+    if (from) end[0] = value_read(a, from, "from", dim);
+    if (to) end[1] = value_read(a, to, "to", dim);
+}
+
 /* {c0: [0, 3]}: values of a parameter. The second one that is swept: at these of its values; one that is not swept: if it
  * has one of them. */
 static void at_read(axes *a, const ves_node *node, ves_sweep_branch *branch)
@@ -238,7 +249,12 @@ static void at_read(axes *a, const ves_node *node, ves_sweep_branch *branch)
                          "\"%s\" is walked along: a branch says by its `kind` where it is lost", at.name);
         return;
     }
-    list_read(a, node->item[0], &at, ves_formula_dim(formula));
+    double range[2] = {0};
+    const bool ranged = node->item[0]->kind == VES_NODE_MAP;
+    if (ranged)
+        range_ends(a, node->item[0], ves_formula_dim(formula), range);
+    else
+        list_read(a, node->item[0], &at, ves_formula_dim(formula));
     if (reader->errors > before) return;
     const bool second = sweep->axes > 1 && sweep->axis[1].parameter == parameter;
     const double own = ves_reader_value(reader, formula);
@@ -247,7 +263,7 @@ static void at_read(axes *a, const ves_node *node, ves_sweep_branch *branch)
     if (!ves_reader_memory(reader, skips)) return;
     bool any = false;
     for (int j = 0; j < (second ? sweep->axis[1].count : 1); j++) {
-        skips[j] = true;
+        skips[j] = !ranged || value[j] < range[0] || value[j] > range[1];
         for (int k = 0; k < at.count; k++) skips[j] = skips[j] && value[j] != at.value[k];
         any = any || !skips[j];
     }
