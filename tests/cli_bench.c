@@ -241,7 +241,7 @@ Test(cli_bench, every_suite_that_is_shipped_runs)
     write_file("s.yaml",
                "vesica: 1\nsuite: pot\nproblems: [{file: " VESICA_SOURCE "/problems/pot.yaml}]\nseeds: 2\n"
                "budget: {per_dimension: 50}\nmethods: {auto: {search: auto}}\n");
-    expect(vesica(NULL, "bench s.yaml --no-files"), 0, "first by auto, run 0; auto 2 times", NULL, "pot");
+    expect(vesica(NULL, "bench s.yaml --no-files"), 0, "; auto 2 times\n", NULL, "pot");
     root_remove();
 }
 
