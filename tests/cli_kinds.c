@@ -5,7 +5,7 @@
 
 /* A double well in x, tilted by t: (x^2 - 1)^2 + t x, which has two minima while |t| < 8/(3 sqrt(3)) = 1.5396. */
 #define WELL(kinds)                                                                                          \
-    "vesica: 1\nparameters: {t: 0, k: 1}\nvariables: {x: [-2, 0.5, 2]}\n"                                    \
+    "vesica: 1\nparameters: {t: 0, k: 1, h: 1}\nvariables: {x: [-2, 0.5, 2]}\n"                              \
     "curves: {low: {circle: {radius: 3 + x}}, high: {like: low, apply: [{translate: [0, 0, 1]}]}}\n"         \
     "patches: {wall: {operator: {power: 1, a: 0}, conditions: [{u: 0, position: low}, {u: 1, position: "     \
     "high}]}}\n"                                                                                             \
@@ -162,6 +162,11 @@ Test(cli_kinds, a_branch_has_its_values_of_the_second_parameter)
            "warning: branch \"right\" is not walked: no value is one that `at` names", "k = 2");
     expect(vesica(NULL, "sweep w.yaml --over t=0,0.5 --set k=3 --out k3"), 0, "  right ",
            "warning: branch \"left\" is not walked", "k is no axis");
+    write_file("p.yaml",
+               WELL(SIDES) "sweep:\n  over: {t: [0, 0.5], h: [1, 2, 3]}\n"
+                           "  branches: {right: {set: {x: 1.2}, at: {k: 2}}, left: {set: {x: -1.2}}}\n");
+    expect(vesica(NULL, "sweep p.yaml --out p"), 0, "  left, h = 3 ", ": 6 points in 3 walks",
+           "k, which is not swept");
     expect(vesica(NULL, "sweep w.yaml --over t=0,0.5 --over k=7 --out k7"), 2, NULL,
            "no branch is walked at these values", "none");
     root_remove();

@@ -258,16 +258,15 @@ static void at_read(axes *a, const ves_node *node, ves_sweep_branch *branch)
     if (reader->errors > before) return;
     const bool second = sweep->axes > 1 && sweep->axis[1].parameter == parameter;
     const double own = ves_reader_value(reader, formula);
-    const double *value = second ? sweep->axis[1].value : &own;
-    bool *skips = ves_arena_take(reader->arena, (size_t)(second ? sweep->axis[1].count : 1), sizeof *skips);
+    const int seconds = sweep->axes > 1 ? sweep->axis[1].count : 1;
+    bool *skips = ves_arena_take(reader->arena, (size_t)seconds, sizeof *skips);
     if (!ves_reader_memory(reader, skips)) return;
-    bool any = false;
-    for (int j = 0; j < (second ? sweep->axis[1].count : 1); j++) {
-        skips[j] = !ranged || value[j] < range[0] || value[j] > range[1];
-        for (int k = 0; k < at.count; k++) skips[j] = skips[j] && value[j] != at.value[k];
-        any = any || !skips[j];
+    for (int j = 0; j < seconds; j++) {
+        const double value = second ? sweep->axis[1].value[j] : own, same = MISS * fabs(value);
+        skips[j] = !ranged || value < range[0] - same || value > range[1] + same;
+        for (int k = 0; k < at.count; k++) skips[j] = skips[j] && fabs(value - at.value[k]) > same;
     }
-    branch->skips = second || !any ? skips : NULL;
+    branch->skips = skips;
 }
 
 static void branch_read(axes *a, const ves_named *named, ves_sweep_branch *branch)

@@ -17,6 +17,7 @@ enum { SENTENCE = 400, MESSAGE = 2000, SMALL_U = 32, SMALL_V = 48 /* cells of a 
 static const double CONVERGED = 1e-3;
 
 static const double ROUNDED = 1e-9; /* of a step */
+static const double LEAST = 1e-6;   /* of the step between two values: no smaller ones are taken */
 
 /* A point while it is searched. */
 typedef struct search {
@@ -390,7 +391,7 @@ static ves_status find(search *s)
 static ves_status follow(search *s, double near)
 {
     const ves_sweep *sweep = s->task->sweep;
-    const double target = value_of(s), finest = sweep->def->finest;
+    const double target = value_of(s), finest = fmax(sweep->def->finest, LEAST * fabs(target - near));
     const int first = sweep->first[VES_SWEEP_VARIABLE];
     ves_sweep_point *point = s->point, tried = *point, kept = *point;
     double step = (target - near) / 2, reached = near;
