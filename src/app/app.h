@@ -29,8 +29,8 @@ typedef struct app_options {
     uint64_t seed;
     long evaluations;
     int jobs, spine, modes, functions, along, grid[2]; /* along: -1: softest */
-    double metres;       /* of the unit of export; 0: none is asked for */
-    double view[2];      /* radians: azimuth, height */
+    double metres;                                     /* of the unit of export; 0: none is asked for */
+    double view[2];                                    /* radians: azimuth, height */
     const char *decides; /* an option that a resumed run has decided already, or NULL */
     const char *start, *resume, *out, *patch, *points, *to, *unit, *png, *colour, *add;
     const char *over; /* what is under `sweep.over`, or NULL */

@@ -223,7 +223,7 @@ static void sweeps(const ves_problem *p)
     long walked = 0, all = s->axis[0].count;
     for (int b = 0; b < (s->branches ? s->branches : 1); b++)
         for (int j = 0; j < seconds; j++)
-            if (!s->branches || !s->branch[b].skips || !s->branch[b].skips[j]) walked += s->forth + s->back;
+            if (ves_sweep_walked(s, b, j)) walked += s->forth + s->back;
     printf("  sweep        over %s, %d values", s->axis[0].name, s->axis[0].count);
     if (s->axes > 1) printf(", for %d of %s", s->axis[1].count, s->axis[1].name);
     printf(": %s in %s (vesica sweep)\n", app_screen_plural(all * walked, "point", "points", points),

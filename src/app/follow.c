@@ -8,7 +8,7 @@
 
 static const double FAR = 0.1;   /* e of the displacement */
 static const double MOST = 0.5;  /* of the mode's square: less is another displacement */
-static const double BACK = 1e-5; /* of the objective, and of the measures' size: the same shape again */
+static const double BACK = 1e-5; /* of the objective: the same shape again */
 
 static bool comes_back(const ves_stability *s, const ves_run *run)
 {

@@ -246,6 +246,9 @@ typedef struct ves_sweep_def {
         finest; /* where a walk would lose its branch it takes smaller steps, down to this; 0: it does not */
 } ves_sweep_def;
 
+/* Is the branch walked at this value of the second parameter? */
+bool ves_sweep_walked(const ves_sweep_def *sweep, int branch, int second);
+
 struct ves_problem {
     ves_arena arena;
     const char *path, *name, *title; /* name: the file's name without folder and ending */

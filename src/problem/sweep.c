@@ -303,6 +303,12 @@ static void branches_read(axes *a, const ves_node *node)
     a->sweep->branches = names->count;
 }
 
+bool ves_sweep_walked(const ves_sweep_def *sweep, int branch, int second)
+{
+    const bool *skips = sweep->branches ? sweep->branch[branch].skips : NULL;
+    return !skips || !skips[second];
+}
+
 /* Of the dimension of the first parameter. */
 static void finest_read(axes *a, const ves_node *node)
 {

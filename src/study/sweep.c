@@ -84,12 +84,6 @@ static const char *walk_name(whole *w, const ves_sweep_walk *walk)
     return ves_arena_format(&w->arena, "%.100s%s%s%s%s", part[0], gap[0], part[1], gap[1], part[2]);
 }
 
-static bool is_walked(const ves_sweep_def *def, int branch, int second)
-{
-    const bool *skips = def->branches ? def->branch[branch].skips : NULL;
-    return !skips || !skips[second];
-}
-
 static ves_status walks_make(whole *w)
 {
     ves_sweep *s = &w->shown;
@@ -107,7 +101,7 @@ static ves_status walks_make(whole *w)
         const int before = s->walks;
         for (int j = 0; j < seconds; j++)
             for (int way = 0; way < 2; way++)
-                if ((way ? def->back : def->forth) && is_walked(def, b, j))
+                if ((way ? def->back : def->forth) && ves_sweep_walked(def, b, j))
                     walk[s->walks++] = (ves_sweep_walk){.branch = b, .second = j, .back = way};
         if (s->walks == before)
             ves_diag_add(w->diag, VES_WARNING, VES_OK, def->branch[b].mark,
