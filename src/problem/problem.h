@@ -13,6 +13,7 @@
 #include "curve/curve.h"
 #include "formula/dimension.h"
 #include "formula/formula.h"
+#include "problem/shell.h"
 #include "vesica/measure.h"
 #include "vesica/problem.h"
 #include "vesica/search.h"
@@ -290,6 +291,7 @@ struct ves_problem {
     ves_search_options test;           /* what `test:` overrides: budget and stages */
     const ves_expect_def *test_expect; /* replaces expect in a test run when given */
     const ves_sweep_def *sweep;        /* NULL: none */
+    const ves_shell_def *shell;        /* NULL: none */
 };
 
 /* Loads a whole file, a little more than the reader takes at most; path is for messages. *text is to be freed
