@@ -31,6 +31,7 @@ extern "C" {
     X(NOT_ELLIPTIC, 16, "the operator of a patch is not elliptic")                                           \
     X(UNDETERMINED, 17, "the conditions of a patch do not determine one of its modes")                       \
     X(BROKEN, 18, "a check of the file does not hold")                                                       \
+    X(LOOSE, 19, "the supports of the shell let it move without strain")                                     \
     X(SYNTAX, -1, "the text cannot be read")                                                                 \
     X(NAME, -2, "a name is not known")                                                                       \
     X(UNIT, -3, "a dimension does not fit")                                                                  \

@@ -1,0 +1,158 @@
+/* Consistent nodal forces. */
+#include "shell/inside.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/vector.h"
+
+/* The force on a point of the surface per dr ds: of areas as they are, of pressure along the normal. */
+static void surface_density(const ves_shell *shell, const shell_element *e, const ves_shell_load *load, int q,
+                            const ves_shell_frame *f, double out[3])
+{
+    const ves_shell_kind *kind = &shell->kind[e->sheet];
+    const double *N = kind->rule.table.N + q * kind->nodes;
+    double normal[3], pressure = 0;
+    ves_cross(f->Xr, f->Xs, normal);
+    double area = sqrt(ves_dot(normal, normal));
+    for (int k = 0; load->pressure && k < kind->nodes; k++) pressure += N[k] * load->pressure[e->s[k]];
+    for (int c = 0; c < 3; c++) {
+        double force = 0;
+        for (int k = 0; load->area[c] && k < kind->nodes; k++) force += N[k] * load->area[c][e->s[k]];
+        out[c] = force * area + pressure * shell->input->side[e->sheet] * normal[c];
+    }
+}
+
+/* Adds forces [nodes][3] of an element to a right side; the columns are those of the element. */
+static void scatter(ves_shell *shell, int columns, const double (*force)[3], double *b)
+{
+    for (int i = 0; i < columns; i++) {
+        const ves_shell_column *c = &shell->column[i];
+        if (!c->turns) b[shell->freedom_of[i]] += ves_dot(c->vector, force[c->node]);
+    }
+}
+
+static void surface_add(ves_shell *shell, const shell_element *e, const ves_shell_body *body, int which,
+                        double (*force)[3])
+{
+    const ves_shell_load *load = &shell->input->load[which * shell->model->sheets + e->sheet];
+    const ves_shell_points *rule = &body->kind->rule;
+    if (!load->pressure && !load->area[0]) return;
+    for (int q = 0; q < rule->points; q++) {
+        ves_shell_frame frame;
+        double density[3];
+        ves_shell_frame_at(body, &rule->table, q, &frame);
+        surface_density(shell, e, load, q, &frame, density);
+        for (int k = 0; k < body->kind->nodes; k++)
+            for (int c = 0; c < 3; c++)
+                force[k][c] += rule->weight[q] * rule->table.N[q * body->kind->nodes + k] * density[c];
+    }
+}
+
+/* The nodes of an element along one of its sides that lies on an edge of the sheet: k-th. */
+static int side_node(const ves_shell_kind *kind, int edge, int k)
+{
+    int across = kind->order[0] + 1;
+    if (edge < 2) return k * across + (edge ? kind->order[0] : 0);
+    return (edge == 3 ? kind->order[1] * across : 0) + k;
+}
+
+static bool on_edge(const ves_shell *shell, const shell_element *e, int edge)
+{
+    const ves_shell_sheet *s = &shell->model->sheet[e->sheet];
+    if (edge > 1 && s->closed) return false;
+    const int at[4] = {e->u, s->elements[0] - 1 - e->u, e->v, s->elements[1] - 1 - e->v};
+    return at[edge] == 0;
+}
+
+/* weight[q], N[q][k] of a Gauss rule along a side; weights times length. Returns how many points. */
+static int side_rule(const ves_shell_body *body, int edge, double *weight, double (*N)[VES_SHELL_ORDER + 1])
+{
+    int order = body->kind->order[edge < 2], count = order + 1;
+    double node[VES_SHELL_ORDER + 1], at[VES_SHELL_ORDER + 1], slope[VES_SHELL_ORDER + 1];
+    ves_rule_nodes(order, node);
+    ves_rule_gauss(count, at, weight);
+    for (int q = 0; q < count; q++) {
+        double t[3] = {0};
+        ves_rule_lagrange(count, node, at[q], N[q], slope);
+        for (int k = 0; k < count; k++)
+            for (int c = 0; c < 3; c++) t[c] += slope[k] * body->X[side_node(body->kind, edge, k)][c];
+        weight[q] *= sqrt(ves_dot(t, t));
+    }
+    return count;
+}
+
+static void line_add(ves_shell *shell, const shell_element *e, const ves_shell_body *body, int which,
+                     int edge, double (*force)[3])
+{
+    const ves_shell_load *load = &shell->input->load[which * shell->model->sheets + e->sheet];
+    double weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1];
+    if (!load->line[edge][0] || !on_edge(shell, e, edge)) return;
+    int count = side_rule(body, edge, weight, N), first = (edge < 2 ? e->v : e->u) * (count - 1);
+    for (int q = 0; q < count; q++)
+        for (int c = 0; c < 3; c++) {
+            double density = 0;
+            for (int k = 0; k < count; k++) density += N[q][k] * load->line[edge][c][first + k];
+            for (int k = 0; k < count; k++)
+                force[side_node(body->kind, edge, k)][c] += weight[q] * N[q][k] * density;
+        }
+}
+
+static void points_add(ves_shell *shell)
+{
+    const ves_shell_input *in = shell->input;
+    for (int k = 0; k < in->points; k++) {
+        const ves_shell_point *p = &in->point[k];
+        const shell_freedom *f = &shell->freedom[p->node];
+        double *b = (double *)shell->force->x + (size_t)p->which * shell->force->d;
+        for (int i = 0; i < 3; i++)
+            if (f->moves[i] >= 0)
+                b[f->first + f->moves[i]] += ves_dot(shell->model->node[p->node].frame[i], p->force);
+    }
+}
+
+void ves_shell_loads(ves_shell *shell)
+{
+    memset(shell->force->x, 0, sizeof(double) * shell->force->nzmax);
+    for (int i = 0; i < shell->elements; i++) {
+        const shell_element *e = &shell->element[i];
+        ves_shell_body body = ves_shell_gather(shell, e);
+        int columns = ves_shell_columns_of(shell, e);
+        for (int which = 0; which < shell->model->cases; which++) {
+            memset(shell->U, 0, sizeof *shell->U * (size_t)body.kind->nodes);
+            surface_add(shell, e, &body, which, shell->U);
+            for (int edge = 0; edge < VES_SHELL_EDGES; edge++)
+                line_add(shell, e, &body, which, edge, shell->U);
+            scatter(shell, columns, (const double(*)[3])shell->U,
+                    (double *)shell->force->x + (size_t)which * shell->force->d);
+        }
+    }
+    points_add(shell);
+}
+
+/* Springs along the edges of an element, into its stiffness. */
+void ves_shell_springs(ves_shell *shell, const shell_element *e, const ves_shell_body *body, int columns)
+{
+    double weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1];
+    for (int k = 0; k < shell->model->springs; k++) {
+        const ves_shell_spring *spring = &shell->model->spring[k];
+        if (spring->sheet != e->sheet || !on_edge(shell, e, spring->edge)) continue;
+        int count = side_rule(body, spring->edge, weight, N);
+        double share[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1] = {{0}};
+        int place[VES_SHELL_NODES];
+        for (int n = 0; n < body->kind->nodes; n++) place[n] = -1;
+        for (int i = 0; i < count; i++) {
+            place[side_node(body->kind, spring->edge, i)] = i;
+            for (int j = 0; j < count; j++)
+                for (int q = 0; q < count; q++) share[i][j] += weight[q] * N[q][i] * N[q][j];
+        }
+        for (int j = 0; j < columns; j++)
+            for (int i = j; i < columns; i++) {
+                const ves_shell_column *a = &shell->column[i], *b = &shell->column[j];
+                if (a->turns || b->turns || place[a->node] < 0 || place[b->node] < 0) continue;
+                double stiffness = 0;
+                for (int c = 0; c < 3; c++) stiffness += spring->stiffness[c] * a->vector[c] * b->vector[c];
+                shell->K[j * columns + i] += stiffness * share[place[a->node]][place[b->node]];
+            }
+    }
+}

@@ -1,0 +1,106 @@
+/* Stresses at the lattices of the elements. */
+#include "shell/inside.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/vector.h"
+
+ves_status ves_shell_stresses_make(ves_shell *shell, ves_arena *arena)
+{
+    ves_shell_stresses *s = &shell->stresses;
+    size_t count = 0;
+    for (int k = 0; k < shell->elements; k++)
+        count += (size_t)shell->kind[shell->element[k].sheet].lattice.points;
+    s->points = (int)count;
+    s->sheet = ves_arena_take(arena, count, sizeof *s->sheet);
+    s->u = ves_arena_doubles(arena, count);
+    s->v = ves_arena_doubles(arena, count);
+    s->thickness = ves_arena_doubles(arena, count);
+    s->stress = ves_arena_take(arena, count, sizeof *s->stress);
+    for (int c = 0; c < 3; c++) s->X[c] = ves_arena_doubles(arena, count);
+    return s->sheet && s->u && s->v && s->thickness && s->stress && s->X[0] && s->X[1] && s->X[2]
+               ? VES_OK
+               : VES_MEMORY;
+}
+
+static void place_fill(const ves_shell *shell, const shell_element *e, const ves_shell_body *body, int q,
+                       int at)
+{
+    const ves_shell_stresses *s = &shell->stresses;
+    const ves_shell_sheet *sheet = &shell->model->sheet[e->sheet];
+    const ves_shell_points *lattice = &body->kind->lattice;
+    const double *N = lattice->table.N + q * body->kind->nodes, *u = sheet->knot[0] + e->u,
+                 *v = sheet->knot[1] + e->v;
+    s->sheet[at] = e->sheet;
+    s->u[at] = u[0] + (u[1] - u[0]) * (1 + lattice->at[q][0]) / 2;
+    s->v[at] = v[0] + (v[1] - v[0]) * (1 + lattice->at[q][1]) / 2;
+    s->thickness[at] = 0;
+    for (int c = 0; c < 3; c++) s->X[c][at] = 0;
+    for (int k = 0; k < body->kind->nodes; k++) {
+        s->thickness[at] += N[k] * shell->input->thickness[e->sheet][e->s[k]];
+        for (int c = 0; c < 3; c++) s->X[c][at] += N[k] * body->X[k][c];
+    }
+}
+
+/* Across the thickness shear is parabolic. */
+static void stress_fill(const ves_shell *shell, const ves_shell_body *body, int q, int at)
+{
+    static const double ACROSS[VES_SHELL_LEVELS] = {0, 1.5, 0};
+    ves_shell_frame frame;
+    ves_shell_frame_at(body, &body->kind->lattice.table, q, &frame);
+    for (int level = 0; level < VES_SHELL_LEVELS; level++) {
+        double *stress = shell->stresses.stress[at][level];
+        if (!ves_shell_stress_at(&frame, &shell->input->material, shell->strain + q * VES_GENERAL, level - 1,
+                                 stress))
+            for (int k = 0; k < VES_STRESSES; k++)
+                stress[k] = 0; /* at a pole, where an element has a side of no length */
+        stress[3] *= ACROSS[level], stress[4] *= ACROSS[level];
+    }
+}
+
+const ves_shell_stresses *ves_shell_stress(ves_shell *shell, int which)
+{
+    const double *u = (const double *)shell->solution->x + (size_t)which * shell->solution->d;
+    if (shell->stressed == which) return &shell->stresses;
+    for (int i = 0, at = 0; i < shell->elements; i++) {
+        const shell_element *e = &shell->element[i];
+        ves_shell_body body = ves_shell_gather(shell, e);
+        ves_shell_field(shell, e, u);
+        ves_shell_strains(&body, &body.kind->lattice, (const double(*)[3])shell->U,
+                          (const double(*)[3])shell->A, &shell->scratch, shell->strain);
+        for (int q = 0; q < body.kind->lattice.points; q++, at++) {
+            place_fill(shell, e, &body, q, at);
+            stress_fill(shell, &body, q, at);
+        }
+    }
+    shell->stressed = which;
+    return &shell->stresses;
+}
+
+/* Principal stresses of a tensor with s33 = 0: roots of the characteristic cubic, by the trigonometric form. */
+static void principal(const double s[VES_STRESSES], double p[3])
+{
+    double mean = (s[0] + s[1]) / 3, a = s[0] - mean, b = s[1] - mean, c = -mean;
+    double J2 = (a * a + b * b + c * c) / 2 + s[2] * s[2] + s[3] * s[3] + s[4] * s[4];
+    double J3 = a * (b * c - s[4] * s[4]) - s[2] * (s[2] * c - s[4] * s[3]) + s[3] * (s[2] * s[4] - b * s[3]);
+    double root = sqrt(J2 / 3), sine = root > 0 ? J3 / (2 * root * root * root) : 0;
+    double angle = acos(sine > 1 ? 1 : sine < -1 ? -1 : sine) / 3;
+    for (int k = 0; k < 3; k++) p[k] = mean + 2 * root * cos(angle - VES_TWO_PI * k / 3);
+}
+
+double ves_stress_shear(const double s[VES_STRESSES])
+{
+    if (s[3] == 0 && s[4] == 0) {
+        double centre = (s[0] + s[1]) / 2, radius = hypot((s[0] - s[1]) / 2, s[2]);
+        return fmax(radius, (fabs(centre) + radius) / 2);
+    }
+    double p[3];
+    principal(s, p);
+    return (fmax(p[0], fmax(p[1], p[2])) - fmin(p[0], fmin(p[1], p[2]))) / 2;
+}
+
+double ves_stress_mises(const double s[VES_STRESSES])
+{
+    return sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * (s[2] * s[2] + s[3] * s[3] + s[4] * s[4]));
+}
