@@ -11,6 +11,7 @@
 
 #include "problem/problem.h"
 #include "problem/suite.h"
+#include "shell_probe.h"
 #include "slurp.h"
 #include "surface/figure.h"
 #include "vesica/plan.h"
@@ -70,7 +71,8 @@ static ves_diag *read_file(const char *name, const char *text, ves_status *statu
         read_suite(text, diag, status);
         return diag;
     }
-    *status = ves_problem_read_text("broken", text, strlen(text), NULL, &problem, diag);
+    const ves_read_options options = {.plugin = shell_probes};
+    *status = ves_problem_read_text("broken", text, strlen(text), &options, &problem, diag);
     cr_expect((problem == NULL) == (*status != VES_OK));
     if (problem) *status = ves_plan_create(problem, &(ves_plan_options){{8, 8}}, &plan, diag);
     cr_expect(plan == NULL, "a broken file was planned");

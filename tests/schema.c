@@ -62,9 +62,9 @@ Test(schema, examples_of_curves_moves_and_measures_can_be_read)
 /* Examples of keys name things that the file around them must have. */
 Test(schema, examples_of_keys_can_be_read)
 {
-    static const char *const whole[] = {"title",       "scale",    "solve",      "minimize", "maximize",
-                                        "constraints", "validity", "quadrature", "search",   "seed",
-                                        "modes",       "test",     "expect",     "places",   "measures"};
+    static const char *const whole[] = {
+        "title",  "scale", "solve", "minimize", "maximize", "constraints", "validity", "quadrature",
+        "search", "seed",  "modes", "test",     "expect",   "places",      "measures", "shell"};
     for (size_t k = 0; k < sizeof whole / sizeof *whole; k++) {
         const ves_entry *e = ves_schema_find(ves_schema_root.table, whole[k]);
         char text[4000], use[200] = "";
@@ -120,7 +120,10 @@ Test(schema, explain_knows_every_word)
                                          {"mm", "1 mm = 0.001"},
                                          {"N/m", "1 N/m = 1 kg/s^2"},
                                          {"formula", "comparisons"},
-                                         {"shell", "not in this version yet"},
+                                         {"animate", "not in this version yet"},
+                                         {"shell.supports", "example: {at: p1, fix: all}"},
+                                         {"shell.cases.stack.0.line", "force per length"},
+                                         {"hips", "E = 2 GPa, nu = 0.35"},
                                          {"power", "whole number (1 .. 20)"},
                                          {"jacobian", "positive or any, default positive"}};
     for (size_t k = 0; k < sizeof row / sizeof *row; k++) expect_explained(row[k][0], row[k][1]);

@@ -225,28 +225,34 @@ static void formulas(ves_reader *reader, const ves_node *node, const ves_key *ke
     }
 }
 
+const ves_formula *ves_reader_pointwise(ves_reader *reader, const ves_node *node, const ves_key *key,
+                                        const ves_symbol *symbol, int symbols)
+{
+    if (!ves_reader_word(reader, node, "formula")) return NULL;
+    const ves_formula *formula = ves_reader_formula(reader, ves_text_whole(node), symbol, symbols);
+    if (!formula) return NULL;
+    if (key->unit) ves_reader_check_dim(reader, node, key->name, key->unit, ves_formula_dim(formula));
+    for (int k = 0; k < symbols; k++)
+        for (int s = 0; s < reader->slots && ves_formula_uses_argument(formula, k); s++)
+            if (!strcmp(reader->slot[s].name, symbol[k].name))
+                ves_reader_error(
+                    reader, VES_NAME, node,
+                    "\"%s\" is a property of the surface here, but also a name of this file; rename that",
+                    symbol[k].name);
+    return formula;
+}
+
 /* x, y, z, H, K, k1, k2, u, v: names that a variable may bear too, but then not here. */
 static void pointwise(ves_reader *reader, const ves_node *node, const ves_key *key, ves_arg *arg)
 {
     static const ves_dim length = {.m = 6}, bend = {.m = -6}, gauss = {.m = -12}, plain = {0};
     const ves_symbol symbol[] = {{"x", length}, {"y", length}, {"z", length}, {"H", bend}, {"K", gauss},
                                  {"k1", bend},  {"k2", bend},  {"u", plain},  {"v", plain}};
-    enum { SYMBOLS = sizeof symbol / sizeof *symbol };
-    if (!ves_reader_word(reader, node, "formula")) return;
     const ves_formula **formula = ves_arena_take(reader->arena, 1, sizeof *formula);
     if (!ves_reader_memory(reader, formula)) return;
     arg->formula = formula;
     arg->count = 1;
-    *formula = ves_reader_formula(reader, ves_text_whole(node), symbol, SYMBOLS);
-    if (!*formula) return;
-    if (key->unit) ves_reader_check_dim(reader, node, key->name, key->unit, ves_formula_dim(*formula));
-    for (int k = 0; k < SYMBOLS; k++)
-        for (int s = 0; s < reader->slots && ves_formula_uses_argument(*formula, k); s++)
-            if (!strcmp(reader->slot[s].name, symbol[k].name))
-                ves_reader_error(
-                    reader, VES_NAME, node,
-                    "\"%s\" is a property of the surface here, but also a name of this file; rename that",
-                    symbol[k].name);
+    *formula = ves_reader_pointwise(reader, node, key, symbol, sizeof symbol / sizeof *symbol);
 }
 
 static void given(ves_reader *reader, const ves_field *field, ves_arg *arg)
@@ -299,6 +305,12 @@ static void given(ves_reader *reader, const ves_field *field, ves_arg *arg)
     case VES_POINTWISE:
         pointwise(reader, node, key, arg);
         break;
+    case VES_CASE:
+        arg->value = ves_reader_case(reader, node);
+        break;
+    case VES_SHELL_AT:
+        arg->value = ves_reader_shell_place(reader, node);
+        break;
     }
 }
 
@@ -307,7 +319,8 @@ static void absent(ves_reader *reader, const ves_key *key, ves_arg *arg)
 {
     bool three = key->kind == VES_VECTOR || key->kind == VES_SCALES;
     bool whole = key->kind == VES_COUNT || key->kind == VES_FLAG || key->kind == VES_CHOICE;
-    arg->value = whole ? (int)key->fallback : 0; /* of other kinds a plugin may say any number */
+    bool shell = key->kind == VES_CASE || key->kind == VES_SHELL_AT;
+    arg->value = shell ? -1 : whole ? (int)key->fallback : 0; /* of others a plugin may say any number */
     if (key->kind != VES_NUMBER && !three) return;
     const ves_formula *formula = ves_formula_constant(key->fallback, reader->arena);
     if (!ves_reader_memory(reader, formula)) return;
@@ -334,6 +347,8 @@ void ves_reader_args(ves_reader *reader, const ves_fields *fields, int count, co
     for (int k = 0; k < count; k++) {
         key[k] = *fields->field[k].key;
         ves_reader_arg(reader, &fields->field[k], &arg[k]);
+        if (key[k].kind == VES_CASE && !arg[k].given && !fields->field[k].excused)
+            arg[k].value = ves_reader_only_case(reader, node, &key[k]);
     }
     *args = (ves_args){key, arg, count, ves_reader_mark(reader, node)};
 }

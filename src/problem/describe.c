@@ -155,7 +155,9 @@ void ves_describe_kind(ves_writer *writer, const ves_key *key)
                                         "place or curve",
                                         "patch, or list of patches",
                                         "three formulas",
-                                        "formula of x, y, z, H, K, k1, k2, u, v"};
+                                        "formula of x, y, z, H, K, k1, k2, u, v",
+                                        "load case",
+                                        "curve, PATCH.u0, .u1, .v0 or .v1, or place"};
     static const char *const compound[] = {"mapping",
                                            "names",
                                            "list",
@@ -178,6 +180,9 @@ void ves_describe_kind(ves_writer *writer, const ves_key *key)
                                            "PATCH.u0 or PATCH.u1",
                                            "number, or list of two",
                                            "mapping, or list of values",
+                                           "formula of u, v, x, y, z",
+                                           "[x, y, z], formulas of u, v, x, y, z",
+                                           "word of the materials",
                                            "later"};
     int kind = (int)key->kind;
     if (kind == VES_CHOICE) {
@@ -244,7 +249,7 @@ static void sample(ves_writer *writer, const ves_key *key)
         "[[1, p1]]", "",       "true",
         "",          "text",   "p1",
         "p1",        "[wall]", "[\"cos(v)\", \"sin(v)\", \"0\"]",
-        "\"H^2\""};
+        "\"H^2\"",   "stack",  "p1"};
     if (number_kind(key))
         ves_write(writer, "%g", key->min > 1 ? ceil(key->min / 2) * 2 : 1.0);
     else if (key->kind == VES_CHOICE)

@@ -7,6 +7,7 @@
 #include "formula/parser.h"
 #include "measure/registry.h"
 #include "problem/describe.h"
+#include "problem/material.h"
 #include "vesica/search.h"
 
 enum { WORDS = 600, PATH = 200 };
@@ -139,8 +140,7 @@ static void walk(help *h, const ves_entry *table, const char *path)
         bool choice = e->key.kind == VES_CHOICE && ves_words_find(e->key.words, h->word) >= 0;
         if ((choice || is_path(h->word, inner)) && !(again && h->found)) entry_help(h, e, inner);
         if (*path && h->parent && is_path(h->parent, path) && !again) key_name(h, e->key.name);
-        bool item = (int)e->key.kind == VES_LIST || (int)e->key.kind == VES_NAMED;
-        const ves_entry *below = item && e->table ? e->table->table : e->table;
+        const ves_entry *below = ves_schema_below(e);
         walk(h, below, inner);
     }
 }
@@ -257,6 +257,20 @@ static void function_help(help *h)
     }
 }
 
+static void material_help(help *h)
+{
+    for (const ves_material *m = ves_materials(); m->name; m++) {
+        if (!is_word(h, m->name)) continue;
+        heading(h);
+        ves_write(&h->writer,
+                  "%s: a material of shells\n      %s\n      E = %.12g GPa, nu = %.12g, density = %.12g "
+                  "kg/m^3, yield = %.12g MPa\n      %s\n      example: shell: {material: {like: %s, E: %.12g "
+                  "GPa}}\n",
+                  m->name, m->about, m->E * 1e-9, m->nu, m->density, m->yield * 1e-6, m->source, m->name,
+                  m->E * 1e-9);
+    }
+}
+
 /* FOLDED, folded, VES_FOLDED, or its sentence. */
 static void status_help(help *h)
 {
@@ -341,6 +355,7 @@ char *ves_schema_explain(ves_arena *arena, const char *word, const ves_measure *
     choice_help(h);
     unit_help(h);
     function_help(h);
+    material_help(h);
     status_help(h);
     topic_help(h, more);
     *found = h->found;

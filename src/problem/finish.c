@@ -110,6 +110,7 @@ static void limits(ves_reader *reader)
 void ves_reader_finish(ves_reader *reader, const ves_fields *root)
 {
     spread_curves(reader);
+    ves_reader_shell_finish(reader);
     check_use(reader, root);
     if (reader->status == VES_OK) number_block(reader);
     if (reader->status == VES_OK) ves_reader_shown(reader, root);

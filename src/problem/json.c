@@ -5,6 +5,7 @@
 
 #include "measure/registry.h"
 #include "problem/describe.h"
+#include "problem/material.h"
 #include "vesica/search.h"
 
 #define NUMBER "\"type\":[\"number\",\"string\"]"
@@ -52,6 +53,8 @@ static void leaf(ves_writer *w, const ves_key *key)
         "]",
         "\"type\":\"array\",\"minItems\":3,\"maxItems\":3,\"items\":{" NUMBER "}",
         NUMBER,
+        "\"type\":\"string\"",
+        "\"type\":\"string\"",
     };
     bool number = key->kind == VES_NUMBER || key->kind == VES_COUNT;
     if (key->kind == VES_CHOICE)
@@ -245,6 +248,16 @@ static void relation(ves_writer *w, const ves_entry *e, const ves_measure *const
     ves_write(w, "]");
 }
 
+static void material(ves_writer *w, const ves_entry *e, const ves_measure *const *plugin)
+{
+    if (e->table) ves_write(w, "\"anyOf\":[{");
+    ves_write(w, "\"enum\":[");
+    for (const ves_material *m = ves_materials(); m->name; m++)
+        ves_write(w, "%s\"%s\"", m == ves_materials() ? "" : ",", m->name);
+    ves_write(w, "]");
+    if (e->table) ves_write(w, "},{"), properties(w, e->table, plugin), ves_write(w, "}]");
+}
+
 static void compound(ves_writer *w, const ves_entry *e, const ves_measure *const *plugin)
 {
     switch ((int)e->key.kind) {
@@ -309,6 +322,12 @@ static void compound(ves_writer *w, const ves_entry *e, const ves_measure *const
         break;
     case VES_RELATION:
         relation(w, e, plugin);
+        break;
+    case VES_FIELDS:
+        ves_write(w, "\"type\":\"array\",\"minItems\":3,\"maxItems\":3,\"items\":{" NUMBER "}");
+        break;
+    case VES_MATERIAL:
+        material(w, e, plugin);
         break;
     default:
         ves_write(w, NUMBER);

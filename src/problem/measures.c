@@ -64,6 +64,18 @@ static void check_closed(ves_reader *reader, const ves_node *node, const ves_mea
         measure->name);
 }
 
+static void check_shell(ves_reader *reader, const ves_node *node, const ves_measure *measure)
+{
+    bool needed = measure->shell;
+    for (const ves_key *key = measure->keys; key && key->name; key++)
+        needed = needed || key->kind == VES_CASE || key->kind == VES_SHELL_AT;
+    if (!needed || reader->shell) return;
+    ves_reader_error(
+        reader, VES_NAME, node,
+        "\"%s\" is of a shell: say under \"shell\" what is one, and of what (vesica explain shell)",
+        measure->name);
+}
+
 /* One instance from its fields. */
 static void make(ves_reader *reader, const ves_measure *measure, const char *name, const ves_node *node,
                  ves_fields *fields)
@@ -78,6 +90,7 @@ static void make(ves_reader *reader, const ves_measure *measure, const char *nam
     reader->free = outer;
     if (reader->status == VES_MEMORY) return;
     check_closed(reader, node, measure, &def->args);
+    check_shell(reader, node, measure);
     if (over) def->patch = ves_reader_patches(reader, over, &def->over);
     note_curves(reader, &def->args);
     def->dim = dim_of(measure, &def->args);

@@ -54,9 +54,9 @@ static void read_sections(ves_reader *reader, const ves_fields *root)
     number_names(&reader->patches);
     number_names(&reader->places);
     static void (*const part[])(ves_reader *, const ves_fields *) = {
-        ves_reader_slots,       ves_reader_curves, ves_reader_joins,    ves_reader_patches_section,
-        ves_reader_joins_check, ves_reader_places, ves_reader_settings, ves_reader_measures,
-        ves_reader_goals,       ves_reader_search, ves_reader_sweep};
+        ves_reader_slots,       ves_reader_curves, ves_reader_joins,  ves_reader_patches_section,
+        ves_reader_joins_check, ves_reader_places, ves_reader_shell,  ves_reader_settings,
+        ves_reader_measures,    ves_reader_goals,  ves_reader_search, ves_reader_sweep};
     for (size_t k = 0; k < sizeof part / sizeof *part && reader->status != VES_MEMORY; k++)
         part[k](reader, root);
 }
@@ -161,6 +161,7 @@ static ves_status pass(const task *t, ves_arena *arena, ves_problem **problem, b
     ves_memory_free(reader.use);
     ves_memory_free(reader.limit);
     ves_memory_free(reader.room);
+    ves_memory_free(reader.at);
     return status;
 }
 

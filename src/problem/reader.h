@@ -119,6 +119,13 @@ typedef struct ves_reader {
     int joins;
     ves_measure_def *measure; /* configured, then plain ones as formulas name them */
     int measures_read;
+
+    ves_shell_def *shell; /* being read, then read; NULL: the file has none */
+    ves_names cases;      /* its load cases */
+    bool shell_known;     /* its parts, and the ends of these, are */
+    bool cases_lost;      /* some of its cases could not be read */
+    ves_shell_at *at;     /* places that measures name: growing */
+    int at_room;
 } ves_reader;
 
 /* One key of a table and what the file has for it. */
@@ -202,6 +209,9 @@ bool ves_reader_word(ves_reader *reader, const ves_node *node, const char *what)
 void ves_reader_arg(ves_reader *reader, const ves_field *field, ves_arg *arg);
 void ves_reader_args(ves_reader *reader, const ves_fields *fields, int count, const ves_node *node,
                      ves_args *args);
+/* A formula that reads these symbols, none of which may also be a name of the file; NULL after an error. */
+const ves_formula *ves_reader_pointwise(ves_reader *reader, const ves_node *node, const ves_key *key,
+                                        const ves_symbol *symbol, int symbols);
 int ves_reader_choice(ves_reader *reader, const ves_node *node, const ves_key *key);
 bool ves_reader_flag(ves_reader *reader, const ves_node *node, const ves_key *key);
 const int *ves_reader_patches(ves_reader *reader, const ves_node *node, int *count);
@@ -268,6 +278,24 @@ ves_symbol *ves_reader_symbols(ves_reader *reader, bool expect, int *count);
 void ves_reader_goals(ves_reader *reader, const ves_fields *root);
 void ves_reader_search(ves_reader *reader, const ves_fields *root);
 void ves_reader_stages(ves_reader *reader, const ves_node *node, ves_search_options *options);
+/* shell.c, and its parts: supports.c, loads.c, shell_at.c */
+void ves_reader_shell(ves_reader *reader, const ves_fields *root);
+void ves_reader_material(ves_reader *reader, const ves_node *node);
+void ves_reader_supports(ves_reader *reader, const ves_node *node);
+void ves_reader_cases(ves_reader *reader, const ves_node *node);
+/* A formula of u, v, x, y, z; NULL after an error. */
+const ves_formula *ves_reader_shell_field(ves_reader *reader, const ves_node *node, const ves_key *key);
+/* The part of the shell that a patch is, -1: none. */
+int ves_reader_shell_part(const ves_reader *reader, int patch);
+/* Where something is; false after an error. */
+bool ves_reader_shell_at(ves_reader *reader, const ves_node *node, ves_shell_at *at);
+/* For measures: the index of such a place, of a load case, and of the only load case there is, for a key that
+ * was left out; -1 after an error. */
+int ves_reader_shell_place(ves_reader *reader, const ves_node *node);
+int ves_reader_case(ves_reader *reader, const ves_node *node);
+int ves_reader_only_case(ves_reader *reader, const ves_node *node, const ves_key *key);
+void ves_reader_shell_finish(ves_reader *reader); /* hands the places over */
+
 /* sweep.c; and the changes of a file under a key `set` */
 void ves_reader_sweep(ves_reader *reader, const ves_fields *root);
 const ves_override *ves_reader_overrides(ves_reader *reader, const ves_node *node, int *count);

@@ -4,6 +4,7 @@
 #include "formula/dimension.h"
 #include "measure/registry.h"
 #include "problem/describe.h"
+#include "problem/material.h"
 #include "vesica/search.h"
 
 static void cell_text(ves_writer *w, const char *text)
@@ -56,7 +57,7 @@ static void entries(ves_writer *w, const ves_entry *table)
     if (any) ves_write(w, "\n");
     for (const ves_entry *e = table; e && e->key.name; e++) {
         bool item = (int)e->key.kind == VES_LIST || (int)e->key.kind == VES_NAMED;
-        const ves_entry *below = item && e->table ? e->table->table : e->table;
+        const ves_entry *below = ves_schema_below(e);
         bool shown = !strcmp(e->key.name, "apply") || !strcmp(e->key.name, "search") ||
                      !strcmp(e->key.name, "first") || !strcmp(e->key.name, "expect");
         if (!below || shown) continue;
@@ -180,12 +181,22 @@ static void units(ves_writer *w)
     }
 }
 
+static void materials(ves_writer *w)
+{
+    ves_write(
+        w, "\n## Materials\n\nWords of `shell.material`, for walls at room temperature and loads of minutes: "
+           "plastics creep.\n\n| material | | E, GPa | nu | density, kg/m^3 | yield, MPa | source |\n"
+           "| --- | --- | --- | --- | --- | --- | --- |\n");
+    for (const ves_material *m = ves_materials(); m->name; m++)
+        ves_write(w, "| `%s` | %s | %.12g | %.12g | %.12g | %.12g | %s |\n", m->name, m->about, m->E * 1e-9,
+                  m->nu, m->density, m->yield * 1e-6, m->source);
+}
+
 static void later(ves_writer *w, const ves_entry *table)
 {
     for (const ves_entry *e = table; e && e->key.name; e++) {
         if ((int)e->key.kind == VES_LATER) ves_write(w, "- `%s`: %s\n", e->key.name, e->key.about);
-        bool item = (int)e->key.kind == VES_LIST || (int)e->key.kind == VES_NAMED;
-        later(w, item && e->table ? e->table->table : e->table);
+        later(w, ves_schema_below(e));
     }
 }
 
@@ -203,6 +214,7 @@ char *ves_schema_reference(ves_arena *arena, const ves_measure *const *plugin)
     operations(&w, true);
     measures(&w, plugin);
     searches(&w);
+    materials(&w);
     units(&w);
     ves_write(&w, "\n## Suites\n\nThe keys of a suite file, which `vesica bench` runs "
                   "([benchmark.md](benchmark.md)).\n");

@@ -363,7 +363,7 @@ static const ves_entry root[] = {
     {{"expect", KIND(VES_LIST), .about = "checks at the end of a run"}, "expect: [violation < 1e-6]", check},
     {{"test", KIND(VES_MAP), .about = "a smaller run for tests"}, "test: {evaluations: 500, expect: [feasible]}", test_keys},
     {{"sweep", KIND(VES_MAP), .about = "what vesica sweep walks over: the best shape for each value of a parameter, each search begun at the best of the value before"}, "sweep: {over: {nu: {from: 0.5, to: 1, step: 0.01, walk: both}, c0: [0, 3]}}", sweep_keys},
-    LATER("shell", "thin-shell analysis"),
+    {{"shell", KIND(VES_MAP), .about = "patches as thin shells: what they are made of, what holds them and what loads them"}, "shell: {parts: {wall: {thickness: 0.1}}, material: {E: 2e9, nu: 0.35}, supports: [{at: p1, fix: all}], cases: {stack: [{at: p2, line: [0, 0, -187]}]}}", ves_schema_shell},
     LATER("animate", "parameters that follow time"),
     END};
 
@@ -379,4 +379,11 @@ const ves_entry *ves_schema_find(const ves_entry *table, const char *name)
     for (const ves_entry *e = table; e && e->key.name; e++)
         if (!strcmp(e->key.name, name)) return e;
     return NULL;
+}
+
+const ves_entry *ves_schema_below(const ves_entry *entry)
+{
+    while (entry->table && ((int)entry->key.kind == VES_LIST || (int)entry->key.kind == VES_NAMED))
+        entry = entry->table;
+    return entry->table;
 }

@@ -33,6 +33,9 @@ enum {
     VES_END,       /* an end of a patch: wall.u0 */
     VES_PAIR,      /* one number, or a list of two */
     VES_SWEPT,     /* values of a parameter: one, a list, or the keys of `table`, if it has one */
+    VES_FIELD,     /* a formula of u, v, x, y, z on a shell */
+    VES_FIELDS,    /* [x, y, z] of them */
+    VES_MATERIAL,  /* a word of ves_materials, or the keys of `table`, if it has one */
     VES_LATER      /* a word that a later version will understand; `about` says as what */
 };
 
@@ -47,8 +50,11 @@ typedef struct ves_entry {
 extern const ves_entry ves_schema_root;  /* VES_MAP: the whole file */
 extern const ves_entry ves_schema_suite; /* the same of a suite file (vesica bench) */
 extern const ves_entry ves_schema_stage[];
+extern const ves_entry ves_schema_shell[]; /* the keys of `shell` */
 extern const ves_key ves_schema_over; /* what every measure of surfaces understands besides its own keys */
 
+/* The keys that stand below an entry, those of its items where it is a list or a mapping of names; or NULL. */
+const ves_entry *ves_schema_below(const ves_entry *entry);
 const ves_entry *ves_schema_find(const ves_entry *table, const char *name);
 
 /* Texts made from the tables, in the arena; NULL when out of memory. plugin: NULL-terminated extra measures,

@@ -42,9 +42,10 @@ typedef struct ves_shell_part_def {
     int patch;
     ves_mark mark;
     const ves_formula *thickness; /* m; arguments VES_SHELL_... */
-    int uniform;     /* number block index of the thickness when it is the same everywhere; -1: it is not */
-    bool varies;     /* the thickness depends on a variable: gradients want d/d slot of the formula */
-    int elements[2]; /* of level 0, along u and v; 0: chosen */
+    int uniform;      /* number block index of the thickness when it is the same everywhere; -1: it is not */
+    const char *text; /* the thickness as written */
+    bool varies;      /* the thickness depends on a variable: gradients want d/d slot of the formula */
+    int elements[2];  /* of level 0, along u and v; 0: chosen */
 } ves_shell_part_def;
 
 typedef enum ves_support_kind {
@@ -100,7 +101,8 @@ typedef struct ves_shell_def {
     ves_mark mark;
     int parts;
     const ves_shell_part_def *part;
-    const char *material; /* a word of the table that the numbers come from, or NULL */
+    const char *material; /* the word of the table that numbers come from, or NULL */
+    const char *made_of;  /* for people: "hips", "E 2 GPa, nu 0.35" */
     int E, nu, shear;     /* number block indices */
     int density, yield;   /* the same, or -1: not given */
     int supports;         /* one at least */
