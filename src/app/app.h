@@ -123,6 +123,9 @@ int app_together(app *a, int (*work)(app *a));
 void app_screen_run(const ves_run *run, FILE *out);
 void app_screen_variables(const ves_run *run, FILE *out);
 void app_screen_joints(const ves_run *run, FILE *out);
+/* screen_shell.c: nothing where there is none */
+void app_screen_shell(const ves_problem *problem, FILE *out);
+void app_screen_shell_json(const ves_problem *problem, ves_json *json);
 void app_screen_design(const ves_problem *problem, const ves_design *design, const ves_design *finer,
                        FILE *out); /* finer: on a finer grid */
 const char *app_screen_number(double value, char buffer[32]);

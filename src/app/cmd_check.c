@@ -273,6 +273,7 @@ static void json_print(const checked *c)
         ves_json_end(&json, '}');
     }
     ves_json_end(&json, '}');
+    app_screen_shell_json(p, &json);
     ves_json_array(&json, "notes"); /* what is wrong with the start */
     for (int k = 0; k < c->run->notes; k++) ves_json_text(&json, NULL, c->run->note[k]);
     ves_json_end(&json, ']');
@@ -300,6 +301,7 @@ static int report(app *a, checked *c)
         app_screen_variables(c->run, stdout);
         patches(c);
         amplifications(c);
+        app_screen_shell(c->run->problem, stdout);
         printf("  start design\n\n");
         app_screen_design(c->run->problem, &c->run->best, &c->run->finer, stdout);
         app_screen_joints(c->run, stdout);

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "formula/dimension.h"
 #include "measure/registry.h"
+#include "problem/material.h"
 #include "problem/schema.h"
 #include "suite/landscape.h"
 
@@ -203,6 +204,24 @@ static void functions(app *a, sink *s)
     }
 }
 
+static void materials(app *a, sink *s)
+{
+    (void)a;
+    for (const ves_material *m = ves_materials(); m->name; m++) {
+        begin(s, m->name, m->about);
+        if (!s->json)
+            app_table_cell(&s->table, "E = %.12g GPa, nu = %.12g, %.12g kg/m^3, yield %.12g MPa", m->E * 1e-9,
+                           m->nu, m->density, m->yield * 1e-6);
+        if (!s->json) app_table_cell(&s->table, "%s", m->about);
+        if (s->json) ves_json_number(s->json, "E", m->E);
+        if (s->json) ves_json_number(s->json, "nu", m->nu);
+        if (s->json) ves_json_number(s->json, "density", m->density);
+        if (s->json) ves_json_number(s->json, "yield", m->yield);
+        if (s->json) ves_json_text(s->json, "source", m->source);
+        end(s);
+    }
+}
+
 static const struct list {
     const char *name;
     void (*fill)(app *a, sink *s);
@@ -210,7 +229,7 @@ static const struct list {
              {"algorithms", algorithms},   {"proposals", proposals},   {"schedules", schedules},
              {"populations", populations}, {"strategies", strategies}, {"constraints", constraints},
              {"formats", formats},         {"units", units},           {"templates", templates},
-             {"functions", functions}};
+             {"functions", functions},     {"materials", materials}};
 
 enum { LISTS = sizeof lists / sizeof *lists };
 
@@ -240,5 +259,5 @@ int app_list(app *a)
     return app_fail(a, VES_USAGE,
                     "list what? measures, curves, moves, algorithms, proposals, schedules, populations, "
                     "strategies, constraints, "
-                    "formats, units, templates or functions");
+                    "formats, units, materials, templates or functions");
 }
