@@ -195,6 +195,31 @@ Test(cli_words, a_curve_that_crosses_itself_is_named)
     root_remove();
 }
 
+Test(cli_words, decks_need_a_shell)
+{
+    root_make();
+    tube_write("tube.yaml", "", "{circle: {radius: 1, centre: [0, 0, 3]}}");
+    tube_write("wall.yaml",
+               "shell: {parts: {w: {thickness: 0.01}}, material: {E: 1e6, nu: 0.3}, supports: [{at: "
+               "w.u0, fix: all}], cases: "
+               "{a: [{at: w.u1, line: [0, 0, -1]}]}}",
+               "{circle: {radius: 1, centre: [0, 0, 3]}}");
+    expect(vesica(NULL, "export tube.yaml --to stl,inp"), 2, NULL, "--to inp needs the section \"shell\"",
+           "none");
+    expect(vesica(NULL, "export wall.yaml --to stl --buckling 2"), 2, NULL,
+           "--buckling: no format of --to \"stl\" has load cases; add inp", "no deck");
+    expect(vesica(NULL, "export wall.yaml --to inp --buckling 0"), 2, NULL, "a whole number from 1 to 100",
+           "none");
+    expect(vesica(NULL, "export wall.yaml --to inp --grid 9x12"), 2, NULL, "give a --grid of even numbers",
+           "odd");
+    expect(vesica(NULL, "export wall.yaml --to stl,inp --buckling 3"), 0, "wall.stl\nwall.inp\n", NULL,
+           "both");
+    char *deck = slurp("wall.inp");
+    cr_assert(strstr(deck, "*BUCKLE\n3\n") != NULL && strstr(deck, "** case a\n") != NULL);
+    free(deck);
+    root_remove();
+}
+
 Test(cli_words, spines_are_written_beside_the_shape)
 {
     root_make();

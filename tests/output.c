@@ -341,10 +341,21 @@ Test(output, csv_gives_back_every_number)
 
 /* --- files that cannot be written --- */
 
+/* The ball as a shell that nothing holds or loads, so that every format has something to write. */
+static void shape_shell(ves_figure *figure)
+{
+    static double thickness[13 * 40], *plane[1] = {thickness};
+    static const bool uniform[1] = {true};
+    static ves_figure_shell shell;
+    shell = (ves_figure_shell){.E = 1, .nu = .3, .density = NAN, .thickness = plane, .uniform = uniform};
+    figure->shell = &shell;
+}
+
 Test(output, folders_that_are_not_there_are_told)
 {
     ves_figure figure;
     shape_sphere(&figure, 1, 4, 8);
+    shape_shell(&figure);
     for (const ves_format *const *f = ves_formats(); *f; f++) {
         char path[512];
         snprintf(path, sizeof path, "%s/nowhere/a.%s", path_of(""), (*f)->name);
@@ -363,6 +374,7 @@ Test(output, a_full_disk_leaves_the_old_file_alone)
     ves_figure figure;
     struct rlimit old, small = {64, 64};
     shape_sphere(&figure, 1, 12, 40);
+    shape_shell(&figure);
     path_of("");
     signal(SIGXFSZ, SIG_IGN);
     getrlimit(RLIMIT_FSIZE, &old);

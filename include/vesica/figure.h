@@ -41,8 +41,9 @@ typedef struct ves_mesh {
  * Made once. VES_MEMORY, and VES_FAULT of a figure that is none: *mesh is then zero. */
 ves_status ves_figure_mesh(ves_figure *figure, bool welded, ves_mesh *mesh);
 
-/* Writes one file; the format is the ending of path: vtp, stl, obj, ply, off, csv. A file of that name is
- * replaced whole or not at all. VES_USAGE: no such format; VES_IO. */
+/* Writes one file; the format is the ending of path: vtp, stl, obj, ply, off, csv, inp. A file of that name is
+ * replaced whole or not at all. VES_USAGE: no such format, or inp of a figure without
+ * a shell or on a grid that cannot carry one; VES_IO. */
 ves_status ves_figure_write(ves_figure *figure, const char *path, ves_diag *diag);
 
 /* A shaded picture of the figure, depth-sorted, with the end curves drawn; by the ending of path (png, svg,

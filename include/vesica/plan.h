@@ -212,11 +212,13 @@ ves_status ves_plan_joint(ves_plan *plan, int joint, ves_joint *found);
 
 const char *ves_joint_text(ves_joint_class continuity); /* "open", "C0", "G1", "C1", "G2", "C1 G2", "C2" */
 
-/* The shape at x on nu x nv cells a patch (1 to 10000 and 3 to 10000, 2e7 in all; 0: chosen), for files,
- * pictures and meshes. Owned by the caller. A design that fails is drawn all the same, with a warning in
- * diag, as long as it has a shape: a positive status says that it has none (VES_NO_ROOT, VES_NO_BRACKET,
- * VES_NO_SCALE, VES_NO_POINT) and *figure is NULL, as after VES_RANGE and VES_MEMORY. One that failed before
- * the factor of `scale:` was known is drawn in the size of its curves; the warning then says "not scaled". */
+/* The shape at x on nu x nv cells a patch (1 to 10000 and 3 to 10000, 2e7 in all; 0: chosen; both
+ * VES_FIGURE_ELEMENTS: chosen for the finite elements of its shell, without one as 0), for files, pictures and
+ * meshes. Owned by the caller. A design that fails is drawn all the same, with a warning in diag, as long as it
+ * has a shape: a positive status says that it has none (VES_NO_ROOT, VES_NO_BRACKET, VES_NO_SCALE,
+ * VES_NO_POINT) and *figure is NULL, as after VES_RANGE and VES_MEMORY. One that failed before the factor of
+ * `scale:` was known is drawn in the size of its curves; the warning then says "not scaled". */
+enum { VES_FIGURE_ELEMENTS = -1 };
 ves_status ves_plan_figure(ves_plan *plan, const double *x, int nu, int nv, ves_figure **figure,
                            ves_diag *diag);
 

@@ -28,7 +28,7 @@ typedef struct app_options {
     bool seeded, counted, follows, json, test, no_files, reference, viewed, spines, suite, forget, help;
     uint64_t seed;
     long evaluations;
-    int jobs, spine, modes, functions, along, grid[2]; /* along: -1: softest */
+    int jobs, spine, modes, functions, factors, along, grid[2]; /* along: -1: softest */
     double metres;                                     /* of the unit of export; 0: none is asked for */
     double view[2];                                    /* radians: azimuth, height */
     const char *decides; /* an option that a resumed run has decided already, or NULL */

@@ -9,7 +9,7 @@ enum { WORDS = 16, NAMES = 64 };
 
 static int unknown_format(app *a, const char *word)
 {
-    static const char later[] = "glb|step|inp", pictures[] = "png|svg|pdf";
+    static const char later[] = "glb|step", pictures[] = "png|svg|pdf";
     const char *name[NAMES];
     int count = 0;
     if (!*word)
@@ -98,6 +98,33 @@ static int spines_check(app *a, const ves_problem *p, const ves_format **format,
                     "--spines: no patch of this shape has a spine: none is the solution of a PDE");
 }
 
+/* What needs a shell: a format of elements, and --buckling. */
+static int shell_check(app *a, const ves_problem *p, const ves_format **format, int count, bool *elements)
+{
+    for (int k = 0; k < count; k++) *elements = *elements || format[k]->shell;
+    if (a->options.factors && !*elements)
+        return app_fail(a, VES_USAGE, "--buckling: no format of --to \"%s\" has load cases; add inp",
+                        a->options.to);
+    for (int k = 0; k < count && !p->shell; k++)
+        if (format[k]->shell)
+            return app_fail(a, VES_USAGE,
+                            "--to %s needs the section \"shell\" in the problem file (vesica explain shell): "
+                            "how thick the "
+                            "shape is, what holds it and what pulls",
+                            format[k]->name);
+    return APP_DONE;
+}
+
+/* On the grid that --grid asks for; unless it does, on one for elements when a format has them. */
+static ves_figure *figure_make(app *a, app_shape *shape, bool elements, int *code)
+{
+    int *grid = a->options.grid;
+    if (elements && !grid[0]) grid[0] = grid[1] = VES_FIGURE_ELEMENTS;
+    ves_figure *figure = app_shape_figure(a, shape, code);
+    if (figure && figure->shell) figure->shell->factors = a->options.factors;
+    return figure;
+}
+
 /* In the unit that is asked for. A file without units has no metres that could be turned into it. */
 static int convert(app *a, ves_figure *figure)
 {
@@ -124,13 +151,15 @@ int app_export(app *a)
     app_shape shape;
     const ves_format *format[WORDS];
     int code = APP_DONE, count = 0;
+    bool elements = false;
     if (!a->options.to)
         return app_fail(a, VES_USAGE, "vesica export needs --to FORMAT (vesica list formats)");
     code = formats_read(a, format, &count);
     if (code != APP_DONE || !app_shape_open(a, &shape, &code)) return code;
     code = spines_check(a, shape.opened.problem, format, count);
+    if (code == APP_DONE) code = shell_check(a, shape.opened.problem, format, count, &elements);
     char *stem = code == APP_DONE ? stem_of(a, shape.opened.name, &code) : NULL;
-    ves_figure *figure = stem ? app_shape_figure(a, &shape, &code) : NULL;
+    ves_figure *figure = stem ? figure_make(a, &shape, elements, &code) : NULL;
     if (figure) code = convert(a, figure);
     if (figure && code == APP_DONE) {
         code = write_all(a, figure, stem, format, count);

@@ -55,7 +55,7 @@ const app_command app_commands[] = {
      "formulas\n"
      "of a sheet other ranges; derivatives are by these u and v."},
     {"export", "export FILE|RUN", "write the shape for other programs", 1, 1,
-     "set|start|plugin|to|unit|out|grid|spines", app_export, NULL},
+     "set|start|plugin|to|unit|out|grid|spines|buckling", app_export, NULL},
     {"show", "show FILE|RUN", "draw the shape", 1, 1, "set|start|plugin|png|colour|view|grid|spines",
      app_show, NULL},
     {"new", "new [TEMPLATE [FILE]]",

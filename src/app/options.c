@@ -142,6 +142,15 @@ static bool take_functions(app *a, const char *value)
     return true;
 }
 
+static bool take_buckling(app *a, const char *value)
+{
+    long factors;
+    if (!whole(value, 1, 100, &factors))
+        return wrong(a, "--buckling needs a whole number from 1 to 100, got \"%s\"", value);
+    a->options.factors = (int)factors;
+    return true;
+}
+
 static bool take_spine(app *a, const char *value)
 {
     long count;
@@ -272,6 +281,7 @@ static const option table[] = {
     {"spine", "N", "N points of the spine, the mean over v, from end to end, with its first two derivatives by u", take_spine},
     {"spines", NULL, "the spines of PDE patches too: drawn over the shape, or in files NAME-spines.vtp, .obj, .csv", take_spines},
     {"to", "FORMAT[,FORMAT]", "see vesica list formats; a journal: csv (unless said), jsonl", take_to},
+    {"buckling", "N", "in a deck inp: a step for each load case too that asks for its first N buckling factors", take_buckling},
     {"unit", "UNIT", "of the lengths in the files: mm, cm ...; m, unless said, whatever the problem file writes", take_unit},
     {"grid", "NUxNV", "cells along u and v of each patch", take_grid},
     {"png", "FILE", "where to; the ending png, svg or pdf says what (a shape: NAME.png unless said)", take_png},

@@ -17,6 +17,7 @@ typedef struct ves_format {
     ves_status (*write)(ves_figure *figure, const char *path, ves_diag *diag);
     /* The spines of the figure, a line for each patch that has one; NULL: a format without lines. */
     ves_status (*spines)(ves_figure *figure, const char *path, ves_diag *diag);
+    bool shell; /* needs the figure's shell, and grids of elements */
 } ves_format;
 
 const ves_format *const *ves_formats(void); /* NULL-terminated, sorted by name */

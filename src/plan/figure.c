@@ -13,6 +13,7 @@ enum {
     EVERYTHING = (1 << VES_FIELDS) - 1,
     AT_POLE = (1 << VES_POLE_FIELDS) - 1,
     ALONG = 48,
+    COARSE = 32,
     CELLS_MOST = 10000,
     ALL_MOST = 20000000
 };
@@ -303,12 +304,18 @@ static int finest(const ves_plan *plan)
     return band;
 }
 
-ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **out)
+static int around(const ves_plan *plan)
+{
+    int band = finest(plan);
+    return band < 12 ? 96 : band < 24 ? 192 : 288;
+}
+
+/* along: cells of each patch along u, or NULL: nu of all. */
+static ves_status figure_make(ves_plan *plan, const int *along, int nu, int nv, ves_figure **out)
 {
     *out = NULL;
     const ves_problem *p = plan->problem;
-    int band = finest(plan);
-    if (nv <= 0) nv = band < 12 ? 96 : band < 24 ? 192 : 288;
+    if (nv <= 0) nv = around(plan);
     ves_figure *figure = ves_memory_take(sizeof *figure);
     if (!figure) return VES_MEMORY;
     figure->patches = p->patches;
@@ -317,11 +324,34 @@ ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **out
     figure->patch = ves_arena_take(&figure->arena, (size_t)p->patches, sizeof *figure->patch);
     figure->title = ves_arena_text(&figure->arena, p->title, strlen(p->title));
     ves_status status = figure->patch && figure->title ? VES_OK : VES_MEMORY;
-    for (int k = 0; k < p->patches && status == VES_OK; k++) status = patch_figure(plan, figure, k, nu, nv);
+    for (int k = 0; k < p->patches && status == VES_OK; k++)
+        status = patch_figure(plan, figure, k, along ? along[k] : nu, nv);
     if (status == VES_OK)
         *out = figure;
     else
         ves_figure_destroy(figure);
+    return status;
+}
+
+ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **figure)
+{
+    return figure_make(plan, NULL, nu, nv, figure);
+}
+
+/* On grids that are chosen for finite elements: a coarse figure shows how long the patches are and how wide
+ * layers at their edges. */
+static ves_status elements_make(ves_plan *plan, ves_figure **figure)
+{
+    ves_figure *coarse;
+    VES_TRY(figure_make(plan, NULL, COARSE, 2 * COARSE, &coarse));
+    ves_status status = ves_figure_shell_make(plan, coarse);
+    int *along = ves_arena_take(&coarse->arena, (size_t)coarse->patches, sizeof *along), nv = around(plan);
+    if (!along) status = VES_MEMORY;
+    if (status == VES_OK) {
+        ves_figure_cells(coarse, along, &nv);
+        status = figure_make(plan, along, 0, nv, figure);
+    }
+    ves_figure_destroy(coarse);
     return status;
 }
 
@@ -343,14 +373,18 @@ static ves_status spines_sample(ves_plan *plan, ves_figure *figure)
 
 static ves_status whole_make(ves_plan *plan, int nu, int nv, ves_figure **figure)
 {
-    VES_TRY(ves_plan_figure_make(plan, nu, nv, figure));
+    bool elements = nu == VES_FIGURE_ELEMENTS && plan->problem->shell;
+    VES_TRY(elements ? elements_make(plan, figure)
+                     : ves_plan_figure_make(plan, nu > 0 ? nu : 0, nv > 0 ? nv : 0, figure));
     ves_status status = spines_sample(plan, *figure);
+    if (status == VES_OK) status = ves_figure_shell_make(plan, *figure);
     if (status != VES_OK) ves_figure_destroy(*figure), *figure = NULL;
     return status;
 }
 
 static bool drawable(const ves_plan *plan, int nu, int nv)
 {
+    if (nu == VES_FIGURE_ELEMENTS && nv == VES_FIGURE_ELEMENTS) return true;
     return nu >= 0 && nu <= CELLS_MOST && (nv == 0 || (nv >= 3 && nv <= CELLS_MOST)) &&
            (double)nu * nv * plan->problem->patches <= ALL_MOST;
 }

@@ -195,6 +195,11 @@ ves_status ves_plan_sweep(ves_plan *plan, int level, plan_program which, double 
 ves_status ves_plan_figure_make(ves_plan *plan, int nu, int nv, ves_figure **figure);
 ves_status ves_plan_crosses(ves_plan *plan);
 
+/* figure_shell.c: figure->shell, of a problem that has one; and grids for its finite elements, by layers and
+ * lengths on a coarse figure: cells of each patch along u (0: no part), and raises *nv where needed. */
+ves_status ves_figure_shell_make(const ves_plan *plan, ves_figure *figure);
+void ves_figure_cells(const ves_figure *coarse, int *nu, int *nv);
+
 /* why.c: is every point of the figure finite? Else an error "what: ...". */
 bool ves_plan_figure_finite(const ves_plan *plan, const ves_figure *figure, const char *what, ves_diag *diag);
 

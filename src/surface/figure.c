@@ -22,9 +22,23 @@ static void times(double *plane, int count, double factor)
     for (int k = 0; plane && k < count; k++) plane[k] *= factor;
 }
 
+/* Newtons and seconds stay. */
+static void shell_scale(const ves_figure *figure, double factor)
+{
+    ves_figure_shell *shell = figure->shell;
+    shell->E /= factor * factor;
+    shell->density /= factor * factor * factor * factor;
+    for (int k = 0; k < figure->patches; k++)
+        times(shell->thickness[k], figure->patch[k].rows * figure->patch[k].columns, factor);
+    for (int k = 0; k < shell->supports; k++)
+        for (int n = 0; shell->support[k].spring && n < shell->support[k].nodes; n++)
+            times(shell->support[k].spring[n], 3, 1 / factor);
+}
+
 void ves_figure_scale(ves_figure *figure, double factor, const char *unit)
 {
     figure->unit = unit;
+    if (figure->shell) shell_scale(figure, factor);
     for (int k = 0; k < figure->patches; k++) {
         ves_figure_patch *p = &figure->patch[k];
         int count = p->rows * p->columns;

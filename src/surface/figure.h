@@ -33,6 +33,35 @@ typedef struct ves_figure_patch {
                           does; NULL: a fan to the end's middle */
 } ves_figure_patch;
 
+/* A support of a shell, at nodes of the figure (of patches: those of its parts, not welded). */
+typedef struct ves_figure_support {
+    const char *text; /* as written: "base" */
+    int nodes;
+    const int (*node)[2]; /* patch, node */
+    unsigned fix;         /* bits 0 .. 5: displacements along x, y, z, rotations about them */
+    bool mirror, across;  /* a plane of symmetry with this normal; held across this axis */
+    double axis[3];       /* unit */
+    double (*spring)[3];  /* [nodes] N/m; NULL: none */
+} ves_figure_support;
+
+typedef struct ves_figure_case {
+    const char *name;
+    double *(*force)[3]; /* [patches] planes of forces at nodes, N; NULL of patches that are no parts */
+} ves_figure_case;
+
+/* A shaped shell as what finite elements (surface/elements.h) over the grids of its figure need. */
+typedef struct ves_figure_shell {
+    const char *refused;      /* why these grids cannot carry it; NULL: they can */
+    double E, nu;             /* Pa, 1 */
+    double density;           /* kg/m^3; NAN: not given */
+    double *const *thickness; /* [patches] planes, m; NULL: no part of the shell */
+    const bool *uniform;      /* [patches] it is the same everywhere */
+    int supports, cases;
+    const ves_figure_support *support;
+    const ves_figure_case *load_case;
+    int factors; /* buckling factors that are asked for in each case */
+} ves_figure_shell;
+
 /* mesh.c: ves_figure_mesh welds by index (ends on the same seam, which must have the same nv), never by
  * distance. */
 struct ves_figure {
@@ -42,10 +71,12 @@ struct ves_figure {
     bool closed;      /* with caps, the patches enclose a volume */
     int patches;
     ves_figure_patch *patch;
-    ves_mesh mesh[2]; /* as made: [welded]; without vertices: not yet */
+    ves_mesh mesh[2];        /* as made: [welded]; without vertices: not yet */
+    ves_figure_shell *shell; /* NULL: none */
 };
 
-/* Other units: lengths times factor, curvatures accordingly. Before any mesh is made of it. */
+/* Other units: lengths times factor, curvatures accordingly; of a shell all but forces, so that with metres
+ * made millimetres E is in N/mm^2 and densities in t/mm^3. Before any mesh is made of it. */
 void ves_figure_scale(ves_figure *figure, double factor, const char *unit);
 
 /* The corners of the box around all nodes; false: it has none that is finite. */
