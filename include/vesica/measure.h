@@ -96,6 +96,7 @@ typedef struct ves_measure_input {
      * 32 nodes of a patch cost. input is the very one that eval was called with, no copy. */
     int (*look)(const struct ves_measure_input *input, int i, int k, const double u[3], const double v[3]);
     int first_look; /* index of the first sample of looks */
+    const struct ves_shell_view *shell; /* internal, of built-in measures with `shell`: the solved shell */
 } ves_measure_input;
 
 /* The index of the sample, and of its adjoint, that belongs to key number k, a CURVE or PLACE; -1: the key

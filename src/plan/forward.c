@@ -1,12 +1,13 @@
 /* Forward: programs. A program is a set of measures; running it samples what they read, once, and measures.
  * With solve: the unknown is found first, with scale: the similarity. */
-#include "plan/inside.h"
+#include "plan/shell.h"
 
 #include <math.h>
 
 static ves_status sample(ves_plan *plan, int index, plan_program which, bool gradient)
 {
     plan_level *l = &plan->level[index];
+    if (l->shell) l->shell->solved = false;
     for (int k = 0; k < l->sites; k++)
         VES_TRY(ves_site_sample(plan, &l->site[k], l->site[k].needs[which], gradient));
     return VES_OK;
@@ -17,6 +18,7 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
     const ves_problem *p = plan->problem;
     for (int m = 0; m < p->measures; m++) {
         if (!plan->runs[which][m] || (p->measure[m].measure->cost > 0) != dear) continue;
+        if (p->measure[m].measure->shell) VES_TRY(ves_shell_run(plan, index));
         ves_status status =
             p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]);
         /* a plugin's own word for "cannot be measured"; only the plan cuts */

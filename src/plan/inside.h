@@ -37,6 +37,7 @@ typedef struct plan_site {
     double *trig; /* curve: [e][k][nv] */
     double side;  /* orientation of the patch */
     bool varies;
+    bool mesh;    /* nodes of a shell, ends included */
     bool looked;  /* a look: filled since the other sites were sampled */
     bool pole[2]; /* a look that has forms, on a patch whose end is a point: they are limits there */
     unsigned needs[PROGRAMS];              /* VES_X | ... */
@@ -55,12 +56,15 @@ typedef struct plan_instance {
     int looks;      /* for each surface */
 } plan_instance;
 
+typedef struct plan_shell plan_shell;
+
 typedef struct plan_level {
     int quadrature[2];
     int sites;
     plan_site *site;         /* first one for each patch, then caps, then what keys name */
     int (*edge)[2];          /* [patches] sites of its two ends, and of the sides of a sheet; -1: none */
     plan_instance *instance; /* [measures] */
+    plan_shell *shell;       /* NULL: no measure is of one */
 } plan_level;
 
 /* Two edges of a sheet that are one curve. */
@@ -145,8 +149,16 @@ ves_status ves_plan_try(const ves_problem *problem, const int quadrature[2], ves
 ves_status ves_plan_loose(const ves_problem *problem, const int quadrature[2], ves_plan **plan,
                           ves_diag *diag);
 
+/* shell.c: the shell of a level. begin: before its sites are laid out; sites: lays out those of its nodes; finish: when
+ * all sites have their planes. run: solves it for what was sampled last, once. end: of all levels. */
+ves_status ves_shell_begin(ves_plan *plan, int level, ves_diag *diag);
+ves_status ves_shell_sites(ves_plan *plan, int level);
+ves_status ves_shell_finish(ves_plan *plan, int level, ves_diag *diag);
+ves_status ves_shell_run(ves_plan *plan, int level);
+void ves_shell_end(ves_plan *plan);
+
 /* level.c. face: its sites take the sides of their patches. */
-ves_status ves_plan_level_build(ves_plan *plan, int index);
+ves_status ves_plan_level_build(ves_plan *plan, int index, ves_diag *diag);
 void ves_plan_level_face(ves_plan *plan, int index);
 
 /* sites.c: sampling and its transpose. finish: of a site whose kind, grid and needs are known. look: what

@@ -1,7 +1,7 @@
 /* Levels: the sites that all measures of a problem together read on one grid, and which measure reads
  * which. */
 #include "base/vector.h"
-#include "plan/inside.h"
+#include "plan/shell.h"
 
 static int patches_of(const ves_problem *p, const ves_measure_def *m, int index)
 {
@@ -175,6 +175,7 @@ static ves_status instance_finish(ves_plan *plan, plan_level *l, int m)
     in->input.args = &def->args;
     in->input.number = plan->block;
     in->input.look = def->measure->looks ? ves_site_look : NULL;
+    in->input.shell = l->shell ? &l->shell->view : NULL;
     in->plan = plan;
     in->looks = def->measure->looks;
     size_t room = def->measure->room ? def->measure->room(&in->input) : 0;
@@ -251,12 +252,12 @@ static ves_status edges_add(ves_plan *plan, int index, int patch)
     return VES_OK;
 }
 
-ves_status ves_plan_level_build(ves_plan *plan, int index)
+ves_status ves_plan_level_build(ves_plan *plan, int index, ves_diag *diag)
 {
     const ves_problem *p = plan->problem;
     plan_level *l = &plan->level[index];
     enum { EDGES = 2 };
-    int most = (1 + EDGES) * p->patches + p->shape.caps;
+    int most = (1 + EDGES) * p->patches + p->shape.caps + (p->shell ? p->shell->parts : 0);
     for (int m = 0; m < p->measures; m++)
         most += references(&p->measure[m]) + p->measure[m].measure->looks * surfaces_of(p, &p->measure[m]);
     l->site = ves_arena_take(&plan->arena, (size_t)most, sizeof *l->site);
@@ -270,6 +271,8 @@ ves_status ves_plan_level_build(ves_plan *plan, int index)
         VES_TRY(ves_grid_quadrature(l->quadrature[0], l->quadrature[1], ves_patch_periodic(plan->patch[k]),
                                     &plan->arena, &s->grid));
     }
+    VES_TRY(ves_shell_begin(plan, index, diag));
+    VES_TRY(ves_shell_sites(plan, index));
     for (int m = 0; m < p->measures; m++) VES_TRY(instance_build(plan, l, m));
     for (int k = 0; k < p->patches; k++) {
         judging_needs(&l->site[k], ves_validity_nodes(plan, k, index));
@@ -282,6 +285,7 @@ ves_status ves_plan_level_build(ves_plan *plan, int index)
     }
     for (int k = 0; k < l->sites; k++) VES_TRY(ves_site_finish(plan, &l->site[k], l->site[k].samples.site));
     ves_plan_level_face(plan, index);
+    VES_TRY(ves_shell_finish(plan, index, diag));
     for (int m = 0; m < p->measures; m++) VES_TRY(instance_finish(plan, l, m));
     return VES_OK;
 }

@@ -249,7 +249,7 @@ static ves_status build(ves_plan *plan, const int quadrature[2], ves_diag *diag)
     VES_TRY(ves_plan_pose(plan));
     for (int k = 0; k < LEVELS; k++) {
         for (int d = 0; d < 2; d++) plan->level[k].quadrature[d] = quadrature[d] << k;
-        VES_TRY(ves_plan_level_build(plan, k));
+        VES_TRY(ves_plan_level_build(plan, k, diag));
     }
     VES_TRY(ves_plan_refer(plan, diag));
     VES_TRY(ves_plan_sizes(plan));
@@ -354,6 +354,7 @@ void ves_plan_destroy(ves_plan *plan)
             if (state && plan->problem->measure[m].measure->release)
                 plan->problem->measure[m].measure->release(state);
         }
+    ves_shell_end(plan);
     ves_arena_destroy(&plan->arena);
     ves_memory_free(plan);
 }

@@ -82,6 +82,20 @@ static int side_rule(const ves_shell_body *body, int edge, double *weight, doubl
     return count;
 }
 
+double ves_shell_length(ves_shell *shell, const ves_shell_input *input, int sheet, int edge)
+{
+    double length = 0, weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1];
+    shell->input = input;
+    for (int k = 0; k < shell->elements; k++) {
+        const shell_element *e = &shell->element[k];
+        if (e->sheet != sheet || !on_edge(shell, e, edge)) continue;
+        ves_shell_body body = ves_shell_gather(shell, e);
+        int count = side_rule(&body, edge, weight, N);
+        for (int q = 0; q < count; q++) length += weight[q];
+    }
+    return length;
+}
+
 static void line_add(ves_shell *shell, const shell_element *e, const ves_shell_body *body, int which,
                      int edge, double (*force)[3])
 {

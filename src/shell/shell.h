@@ -107,6 +107,9 @@ void ves_shell_displacement(const ves_shell *shell, int which, int sheet, int s,
 /* F . u of a case: twice the strain energy, J. */
 double ves_shell_work(const ves_shell *shell, int which);
 
+/* Of an edge as the elements draw it, m. Before solve: of the input that it will be given. */
+double ves_shell_length(ves_shell *shell, const ves_shell_input *input, int sheet, int edge);
+
 /* The forces with which supports and springs of the nodes of an edge hold it, summed, N. */
 void ves_shell_reaction(ves_shell *shell, int which, int sheet, int edge, double force[3]);
 

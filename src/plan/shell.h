@@ -1,0 +1,83 @@
+/* Shells in the plan: from the section `shell` to a model (shell/shell.h) for each level, and to its planes at each
+ * candidate. */
+#ifndef VES_PLAN_SHELL_H
+#define VES_PLAN_SHELL_H
+
+#include "plan/inside.h"
+#include "shell/view.h"
+
+enum { SHELL_DESIGNS = 3 }; /* at which is looked what is always so: the start, and two drawn */
+
+/* What the shell, its thickness, its supports and its loads have in common with themselves, turned or mirrored: found
+ * for patches that go round in v, all in the same v. */
+typedef struct plan_sector {
+    bool whole;          /* nothing is used */
+    bool ring;           /* of revolution: a strip */
+    bool mirrored;       /* from mirror plane to mirror plane; else from one side to the same, turned */
+    double from, to;     /* of v */
+    int folds;           /* turned by 2 pi / folds it is itself */
+    double turn[3][3];   /* by to - from */
+    double mirror[2][3]; /* normals of the planes at from and to */
+    double step[3][3];   /* the turn by 2 pi / folds */
+    double axis[3];
+    double copies, share[3][3];
+} plan_sector;
+
+typedef struct plan_shell_part {
+    const ves_shell_part_def *def;
+    int patch, site, count; /* site: index in the level; count: nodes */
+    double *u, *v;          /* [rows], [columns] in 0 .. 1, 0 .. 2 pi */
+    int *weld;
+    bool *far;
+    double *thickness;
+} plan_shell_part;
+
+struct plan_shell {
+    const ves_shell_def *def;
+    int level;
+    plan_sector sector;
+    plan_shell_part *part; /* [def->parts] */
+    ves_shell_sheet *sheet;
+    ves_shell_node *node;
+    int nodes;
+    ves_shell_model model;
+    ves_shell_input input;
+    ves_shell_load *load;
+    ves_shell_spring *spring;
+    ves_shell_point *point;
+    ves_shell_spot *spot;
+    const double *(*X)[3], *(*normal)[3], **thickness;
+    double *side, (*u_range)[2], (*v_range)[2];
+    const int **weld;
+    const bool **far;
+    bool solved;        /* since the sites were sampled */
+    ves_status outcome; /* of that */
+    ves_shell_view view;
+};
+
+/* The design that is looked at as the k-th; binds it. */
+void ves_shell_design(ves_plan *plan, int k);
+
+/* shell_sector.c: at the designs of ves_shell_design */
+ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell);
+/* v of the place in the sector that stands for a place of the whole, where displacements are map times those there. */
+double ves_sector_place(const plan_sector *sector, double v, double map[3][3]);
+
+/* shell_mesh.c: sheets and their nodes */
+ves_status ves_shell_mesh(ves_plan *plan, plan_shell *shell, ves_diag *diag);
+
+/* shell_weld.c: which nodes are one; folds; what is held */
+ves_status ves_shell_weld(ves_plan *plan, plan_shell *shell);
+ves_status ves_shell_hold(ves_plan *plan, plan_shell *shell, ves_diag *diag);
+
+/* The node at a place, or the one that stands for it. */
+void ves_shell_spot_find(const ves_plan *plan, const plan_shell *shell, const ves_shell_at *at, ves_shell_spot *spot);
+int ves_shell_place(const ves_plan *plan, const plan_shell *shell, const ves_shell_at *at);
+
+/* shell_load.c: planes that loads need, and what fills them */
+ves_status ves_shell_loads_make(ves_plan *plan, plan_shell *shell);
+void ves_shell_loads_fill(ves_plan *plan, plan_shell *shell);
+/* A formula of x, y, z, u, v at node s of a part. */
+double ves_shell_formula(ves_plan *plan, const plan_shell *shell, int part, int s, const ves_formula *formula);
+
+#endif

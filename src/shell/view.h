@@ -1,0 +1,25 @@
+/* What measures see of a shell: the solved one, and how its sector makes the whole. */
+#ifndef VES_SHELL_VIEW_H
+#define VES_SHELL_VIEW_H
+
+#include "shell/shell.h"
+
+/* Where something is asked of the shell: an edge of a sheet, or (edge -1) its node s. What is asked there is that of
+ * the whole shell, U -> map U, whose place is here by symmetry. */
+typedef struct ves_shell_spot {
+    int sheet, edge, s;
+    double map[3][3];
+} ves_shell_spot;
+
+typedef struct ves_shell_view {
+    ves_shell *shell;
+    const ves_shell_model *model;
+    const ves_shell_input *input;
+    double copies;        /* how many of the sector make the whole: of energies */
+    double share[3][3];   /* a force of the sector adds copies * share * force to that of the whole */
+    const ves_shell_spot *spot; /* [places that the file names] */
+    /* [sheets] what formulas of u and v mean (ves_samples) */
+    const double (*u_range)[2], (*v_range)[2];
+} ves_shell_view;
+
+#endif
