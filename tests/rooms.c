@@ -79,7 +79,7 @@ static const arrow DOORS[] = {
     {"threads.h", "base"},
     {"stdatomic.h", "base search"},
     {"signal.h", "app suite"},
-    {"omp.h", ""},
+    {"omp.h", "shell"},
     {"assert.h", ""},
     {"setjmp.h", ""},
 };

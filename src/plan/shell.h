@@ -50,6 +50,7 @@ struct plan_shell {
     double *side, (*u_range)[2], (*v_range)[2];
     const int **weld;
     const bool **far;
+    ves_shell *shell;
     bool solved;        /* since the sites were sampled */
     ves_status outcome; /* of that */
     ves_shell_view view;

@@ -9,7 +9,7 @@
 
 #include "base/vector.h"
 
-enum { ALONG = 5, AROUND = 16, PLACES = ALONG * AROUND, FOLDS = 64 };
+enum { ALONG = 5, AROUND = 16, PLACES = ALONG * AROUND, FEW = 6, FOLDS = 64 };
 
 static const double SAME = 1e-9;  /* of the shell's size, or of the largest value */
 static const double STRIP = 1e-3; /* rad: the ring's strip; what it leaves out is of the square of this */
@@ -19,6 +19,7 @@ typedef struct seeker {
     const plan_shell *shell;
     double *room, *out;
     double axis[3], centre[3], size; /* at the design that is bound */
+    int places; /* of those below, at which is looked: a few of them tell most that is not alike */
     double u[PLACES], v[PLACES];
 } seeker;
 
@@ -49,11 +50,11 @@ static const double *points(seeker *k, int part, double sign, double shift)
 {
     const ves_patch *patch = k->plan->patch[k->shell->def->part[part].patch];
     double v[PLACES];
-    for (int i = 0; i < PLACES; i++) {
+    for (int i = 0; i < k->places; i++) {
         v[i] = fmod(sign * k->v[i] + shift, VES_TWO_PI);
         if (v[i] < 0) v[i] += VES_TWO_PI;
     }
-    ves_patch_point(patch, &k->plan->bound, PLACES, k->u, v, k->out, k->room);
+    ves_patch_point(patch, &k->plan->bound, k->places, k->u, v, k->out, k->room);
     return k->out;
 }
 
@@ -63,6 +64,7 @@ static bool measure(seeker *k)
 {
     double most = 0;
     k->size = 0;
+    k->places = PLACES;
     for (int row = 0; row < ALONG; row++) {
         const double *X = points(k, 0, 1, 0);
         double mean[3] = {0}, area[3] = {0};
@@ -90,7 +92,7 @@ static bool measure(seeker *k)
 static double formula_at(const seeker *k, int part, const double *X, int i, double v, const ves_formula *formula)
 {
     const ves_patch_def *d = &k->plan->problem->patch[k->shell->def->part[part].patch];
-    double at[VES_SHELL_ARGUMENTS] = {X[i], X[PLACES + i], X[2 * PLACES + i], k->u[i], v};
+    double at[VES_SHELL_ARGUMENTS] = {X[i], X[k->places + i], X[2 * k->places + i], k->u[i], v};
     if (d->kind == VES_PATCH_FORMULA) {
         at[VES_SHELL_U] = d->u_range[0] + (d->u_range[1] - d->u_range[0]) * k->u[i];
         at[VES_SHELL_V] = d->v_range[0] + (d->v_range[1] - d->v_range[0]) / VES_TWO_PI * v;
@@ -113,17 +115,17 @@ static bool formulas_alike(seeker *k, const likeness *l, int part, int count, co
 {
     double before[3 * PLACES], most = 0, worst = 0;
     const double *X = points(k, part, 1, 0);
-    for (int i = 0; i < PLACES; i++) {
+    for (int i = 0; i < k->places; i++) {
         double f[3] = {0}, turned[3];
         for (int c = 0; c < count; c++) f[c] = formula_at(k, part, X, i, k->v[i], formula[c]);
         if (count == 3) apply((double(*)[3])l->Q, f, turned);
-        for (int c = 0; c < count; c++) before[c * PLACES + i] = count == 3 ? turned[c] : f[c];
+        for (int c = 0; c < count; c++) before[c * k->places + i] = count == 3 ? turned[c] : f[c];
         for (int c = 0; c < count; c++) most = fmax(most, fabs(f[c]));
     }
     X = points(k, part, l->sign, l->shift);
-    for (int i = 0; i < PLACES; i++)
+    for (int i = 0; i < k->places; i++)
         for (int c = 0; c < count; c++) {
-            double apart = fabs(formula_at(k, part, X, i, image_v(k, l, i), formula[c]) - before[c * PLACES + i]);
+            double apart = fabs(formula_at(k, part, X, i, image_v(k, l, i), formula[c]) - before[c * k->places + i]);
             if (!(apart <= worst)) worst = apart;
         }
     return worst <= SAME * most || most == 0;
@@ -133,14 +135,14 @@ static bool shape_alike(seeker *k, const likeness *l, int part)
 {
     double before[3 * PLACES];
     const double *X = points(k, part, 1, 0);
-    for (int i = 0; i < PLACES; i++) {
+    for (int i = 0; i < k->places; i++) {
         double r[3], turned[3];
-        for (int c = 0; c < 3; c++) r[c] = X[c * PLACES + i] - k->centre[c];
+        for (int c = 0; c < 3; c++) r[c] = X[c * k->places + i] - k->centre[c];
         apply((double(*)[3])l->Q, r, turned);
-        for (int c = 0; c < 3; c++) before[c * PLACES + i] = turned[c] + k->centre[c];
+        for (int c = 0; c < 3; c++) before[c * k->places + i] = turned[c] + k->centre[c];
     }
     X = points(k, part, l->sign, l->shift);
-    for (int i = 0; i < 3 * PLACES; i++)
+    for (int i = 0; i < 3 * k->places; i++)
         if (!(fabs(X[i] - before[i]) <= SAME * k->size)) return false;
     return true;
 }
@@ -188,6 +190,9 @@ static bool load_alike(seeker *k, const likeness *l, const ves_load_def *load)
 static bool alike(seeker *k, const likeness *l)
 {
     const ves_shell_def *def = k->shell->def;
+    k->places = FEW;
+    if (!shape_alike(k, l, 0)) return false;
+    k->places = PLACES;
     for (int p = 0; p < def->parts; p++)
         if (!shape_alike(k, l, p) || !formulas_alike(k, l, p, 1, &def->part[p].thickness)) return false;
     for (int s = 0; s < def->supports; s++)
@@ -209,9 +214,10 @@ static bool turned_alike(seeker *k, double angle, likeness *l)
 static bool plane_at(seeker *k, double v0, double normal[3])
 {
     double r[3];
-    for (int i = 0; i < PLACES; i++) {
+    k->places = FEW;
+    for (int i = 0; i < k->places; i++) {
         const double *X = points(k, 0, 0, v0);
-        for (int c = 0; c < 3; c++) r[c] = X[c * PLACES + i] - k->centre[c];
+        for (int c = 0; c < 3; c++) r[c] = X[c * k->places + i] - k->centre[c];
         ves_cross(k->axis, r, normal);
         double length = sqrt(ves_dot(normal, normal));
         if (!(length > 1e-3 * k->size)) continue;
@@ -299,7 +305,7 @@ ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell)
     k.out = ves_arena_doubles(&plan->arena, (size_t)(3 * VES_POLE_FIELDS * PLACES));
     if (!k.room || !k.out) return VES_MEMORY;
     for (int i = 0; i < PLACES; i++)
-        k.u[i] = (i / AROUND + 0.3) / ALONG, k.v[i] = VES_TWO_PI * (i % AROUND + 0.1) / AROUND;
+        k.u[i] = (i / AROUND + 0.3) / ALONG, k.v[i] = VES_TWO_PI * (i % AROUND + 0.1) / AROUND; /* the first few: of one ring */
     for (int d = SHELL_DESIGNS - 1; d >= 0; d--) {
         ves_shell_design(plan, d);
         if (!measure(&k)) continue;

@@ -242,6 +242,18 @@ const ves_formula *ves_reader_pointwise(ves_reader *reader, const ves_node *node
     return formula;
 }
 
+static void shellwise(ves_reader *reader, const ves_node *node, const ves_key *key, ves_arg *arg)
+{
+    static const ves_dim length = {.m = 6}, plain = {0};
+    const ves_symbol symbol[] = {{"x", length}, {"y", length}, {"z", length},
+                                 {"u", plain},  {"v", plain},  {"thickness", length}};
+    const ves_formula **formula = ves_arena_take(reader->arena, 1, sizeof *formula);
+    if (!ves_reader_memory(reader, formula)) return;
+    arg->formula = formula;
+    arg->count = 1;
+    *formula = ves_reader_pointwise(reader, node, key, symbol, sizeof symbol / sizeof *symbol);
+}
+
 /* x, y, z, H, K, k1, k2, u, v: names that a variable may bear too, but then not here. */
 static void pointwise(ves_reader *reader, const ves_node *node, const ves_key *key, ves_arg *arg)
 {
@@ -304,6 +316,9 @@ static void given(ves_reader *reader, const ves_field *field, ves_arg *arg)
         break;
     case VES_POINTWISE:
         pointwise(reader, node, key, arg);
+        break;
+    case VES_SHELLWISE:
+        shellwise(reader, node, key, arg);
         break;
     case VES_CASE:
         arg->value = ves_reader_case(reader, node);

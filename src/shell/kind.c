@@ -120,6 +120,13 @@ static ves_status rule_make(ves_shell_kind *kind, bool flat, ves_arena *arena)
     return points_make(kind, arena, rule);
 }
 
+/* Simpson's rule on an odd number of points, or all of it at one. */
+static double simpson(int count, int k)
+{
+    if (count == 1) return 2;
+    return 2.0 / (count - 1) / 3 * (k == 0 || k == count - 1 ? 1 : k % 2 ? 4 : 2);
+}
+
 static ves_status lattice_make(ves_shell_kind *kind, bool flat, ves_arena *arena)
 {
     double at[2][2 * LINE];
@@ -130,6 +137,10 @@ static ves_status lattice_make(ves_shell_kind *kind, bool flat, ves_arena *arena
     }
     kind->lattice.points = count[0] * count[1];
     VES_TRY(product(at[0], count[0], at[1], count[1], arena, &kind->lattice.at));
+    kind->lattice.weight = ves_arena_doubles(arena, (size_t)kind->lattice.points);
+    if (!kind->lattice.weight) return VES_MEMORY;
+    for (int q = 0; q < kind->lattice.points; q++)
+        kind->lattice.weight[q] = simpson(count[0], q % count[0]) * simpson(count[1], q / count[0]);
     return points_make(kind, arena, &kind->lattice);
 }
 

@@ -31,7 +31,7 @@ typedef struct ves_shell_table {
 typedef struct ves_shell_points {
     int points;
     double (*at)[2];
-    double *weight; /* of a quadrature, else NULL */
+    double *weight; /* of a quadrature on [-1, 1]^2 */
     ves_shell_table table;
     double *mix[VES_STRAINS];
 } ves_shell_points;

@@ -96,6 +96,26 @@ double ves_shell_length(ves_shell *shell, const ves_shell_input *input, int shee
     return length;
 }
 
+void ves_shell_edge_mean(ves_shell *shell, int which, int sheet, int edge, double U[3])
+{
+    double length = 0, weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1], director[3];
+    memset(U, 0, 3 * sizeof *U);
+    for (int k = 0; k < shell->elements; k++) {
+        const shell_element *e = &shell->element[k];
+        if (e->sheet != sheet || !on_edge(shell, e, edge)) continue;
+        ves_shell_body body = ves_shell_gather(shell, e);
+        int count = side_rule(&body, edge, weight, N);
+        for (int i = 0; i < count; i++) {
+            double share = 0, at[3];
+            for (int q = 0; q < count; q++) share += weight[q] * N[q][i];
+            ves_shell_displacement(shell, which, sheet, e->s[side_node(body.kind, edge, i)], at, director);
+            for (int c = 0; c < 3; c++) U[c] += share * at[c];
+            length += share;
+        }
+    }
+    for (int c = 0; c < 3; c++) U[c] /= length;
+}
+
 static void line_add(ves_shell *shell, const shell_element *e, const ves_shell_body *body, int which,
                      int edge, double (*force)[3])
 {

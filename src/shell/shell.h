@@ -110,6 +110,9 @@ double ves_shell_work(const ves_shell *shell, int which);
 /* Of an edge as the elements draw it, m. Before solve: of the input that it will be given. */
 double ves_shell_length(ves_shell *shell, const ves_shell_input *input, int sheet, int edge);
 
+/* The mean displacement along an edge. */
+void ves_shell_edge_mean(ves_shell *shell, int which, int sheet, int edge, double U[3]);
+
 /* The forces with which supports and springs of the nodes of an edge hold it, summed, N. */
 void ves_shell_reaction(ves_shell *shell, int which, int sheet, int edge, double force[3]);
 
@@ -119,6 +122,7 @@ typedef struct ves_shell_stresses {
     int points;
     int *sheet;
     double *u, *v, *X[3], *thickness;
+    double *area; /* m^2 of the mid-surface that a point stands for (Simpson) */
     double (*stress)[VES_SHELL_LEVELS]
                     [VES_STRESSES]; /* Pa, ves_shell_stress_at; the shear across is 3/2 of its mean at
                                                          z = 0 and 0 at the surfaces */

@@ -2,6 +2,7 @@
 #include "shell/inside.h"
 
 #include <math.h>
+#include <omp.h>
 #include <string.h>
 
 #include "base/vector.h"
@@ -116,6 +117,7 @@ ves_status ves_shell_solve(ves_shell *shell, const ves_shell_input *input)
     cholmod_common *c = &shell->common;
     shell->input = input;
     shell->stressed = -1;
+    omp_set_max_active_levels(0); /* CHOLMOD would start four threads for each of ours */
     ves_shell_pivots(shell);
     VES_TRY(ves_shell_assemble(shell));
     ves_shell_loads(shell);

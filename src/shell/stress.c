@@ -17,9 +17,10 @@ ves_status ves_shell_stresses_make(ves_shell *shell, ves_arena *arena)
     s->u = ves_arena_doubles(arena, count);
     s->v = ves_arena_doubles(arena, count);
     s->thickness = ves_arena_doubles(arena, count);
+    s->area = ves_arena_doubles(arena, count);
     s->stress = ves_arena_take(arena, count, sizeof *s->stress);
     for (int c = 0; c < 3; c++) s->X[c] = ves_arena_doubles(arena, count);
-    return s->sheet && s->u && s->v && s->thickness && s->stress && s->X[0] && s->X[1] && s->X[2]
+    return s->sheet && s->u && s->v && s->thickness && s->area && s->stress && s->X[0] && s->X[1] && s->X[2]
                ? VES_OK
                : VES_MEMORY;
 }
@@ -48,7 +49,10 @@ static void stress_fill(const ves_shell *shell, const ves_shell_body *body, int 
 {
     static const double ACROSS[VES_SHELL_LEVELS] = {0, 1.5, 0};
     ves_shell_frame frame;
+    double normal[3];
     ves_shell_frame_at(body, &body->kind->lattice.table, q, &frame);
+    ves_cross(frame.Xr, frame.Xs, normal);
+    shell->stresses.area[at] = body->kind->lattice.weight[q] * sqrt(ves_dot(normal, normal));
     for (int level = 0; level < VES_SHELL_LEVELS; level++) {
         double *stress = shell->stresses.stress[at][level];
         if (!ves_shell_stress_at(&frame, &shell->input->material, shell->strain + q * VES_GENERAL, level - 1,
