@@ -19,6 +19,9 @@ static const char patches[] =
     "patches:\n"
     "  wall: {operator: {power: 1}, conditions: [{u: 0, position: p1}, {u: 1, position: p2}]}\n"
     "shape: {closed: true, caps: [wall.u0, wall.u1]}\n";
+static const char shell[] =
+    "shell: {parts: {wall: {thickness: 0.1}}, material: {E: 1, nu: 0.3}, supports: [{at: p1, fix: all}],\n"
+    "  cases: {push: [{at: p2, line: [0, 0, 1]}]}}\n";
 
 static void expect_read(const char *text, const char *what)
 {
@@ -53,7 +56,8 @@ Test(schema, examples_of_curves_moves_and_measures_can_be_read)
     }
     for (const ves_measure *const *m = ves_measures(); *m; m++) {
         const char *e = example(&arena, (*m)->name, (*m)->keys);
-        snprintf(text, sizeof text, "%s%s%smeasures: {new: %s}\nminimize: new\n", head, curves, patches, e);
+        snprintf(text, sizeof text, "%s%s%s%smeasures: {new: %s}\nminimize: new\n", head, curves, patches,
+                 (*m)->shell ? shell : "", e);
         expect_read(text, e);
     }
     ves_arena_destroy(&arena);

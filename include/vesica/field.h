@@ -33,8 +33,8 @@ typedef enum ves_kind {
     VES_FORMULAS,   /* internal: three formulas of the surface coordinates */
     VES_POINTWISE,  /* internal: one formula of x, y, z, H, K, k1, k2, u, v at a point of the surface */
     VES_CASE,       /* a load case of the shell; may be left out when there is but one, and is answered then too */
-    VES_SHELLWISE,  /* internal: one formula of x, y, z, u, v, thickness at a point of the shell */
-    VES_SHELL_AT    /* a curve that parts of the shell end on, an edge of a part (wall.u0), or a place on one */
+    VES_SHELL_AT, /* a curve that parts of the shell end on, an edge of a part (wall.u0), or a place on one */
+    VES_SHELLWISE  /* internal: one formula of x, y, z, u, v, thickness at a point of the shell */
 } ves_kind;
 
 /* As the least value of a key: greater than 0. The smallest normal number, so that ranges stay closed. */

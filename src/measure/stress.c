@@ -8,9 +8,22 @@
 
 const ves_key ves_stress_keys[VES_STRESS_KEYS + 1] = {
     {.name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"},
-    {.name = "where", .kind = VES_SHELLWISE, .unit = "1", .about = "which part of the shell counts: a condition of x, y, z, u, v and thickness; everywhere unless given"},
-    {.name = "through", .kind = VES_CHOICE, .words = "all|surfaces|middle", .about = "both surfaces and the mid-surface, or the ones or the other alone"},
-    {.name = "smooth", .kind = VES_NUMBER, .unit = "1", .min = 0, .max = HUGE_VAL, .about = "0: the largest; p > 0: the power mean over the area, which is smooth for p >= 2 and nears the largest as p grows"},
+    {.name = "where",
+     .kind = VES_SHELLWISE,
+     .unit = "1",
+     .about = "which part of the shell counts: a condition of x, y, z, u, v and thickness; everywhere unless "
+              "given"},
+    {.name = "through",
+     .kind = VES_CHOICE,
+     .words = "all|surfaces|middle",
+     .about = "both surfaces and the mid-surface, or the ones or the other alone"},
+    {.name = "smooth",
+     .kind = VES_NUMBER,
+     .unit = "1",
+     .min = 0,
+     .max = HUGE_VAL,
+     .about = "0: the largest; p > 0: the power mean over the area, which is smooth for p >= 2 and nears the "
+              "largest as p grows"},
     {.name = NULL}};
 
 size_t ves_stress_room(const ves_measure_input *input)
@@ -49,9 +62,11 @@ static double at_point(const ves_measure_input *input, const ves_shell_stresses 
     return most;
 }
 
-ves_status ves_stress_largest(const ves_measure_input *input, double (*of)(const double *stress), double *value)
+ves_status ves_stress_largest(const ves_measure_input *input, double (*of)(const double *stress),
+                              double *value)
 {
-    const ves_shell_stresses *s = ves_shell_stress(input->shell->shell, input->args->arg[VES_STRESS_CASE].value);
+    const ves_shell_stresses *s =
+        ves_shell_stress(input->shell->shell, input->args->arg[VES_STRESS_CASE].value);
     double p = ves_argument_number(input, VES_STRESS_SMOOTH), most = -1;
     for (int k = 0; k < s->points; k++)
         if (counts(input, s, k)) most = fmax(most, at_point(input, s, k, of));

@@ -51,8 +51,8 @@ ves_status ves_shell_sites(ves_plan *plan, int index)
         plan_site *s = &l->site[l->sites];
         *s = (plan_site){.patch = part->patch, .curve = -1, .samples.site = VES_SITE_SURFACE, .mesh = true};
         int rows = ves_shell_rows(&shell->sheet[k]);
-        VES_TRY(ves_grid_given(rows, part->u, part->count / rows, part->v, ves_patch_periodic(plan->patch[part->patch]),
-                               &plan->arena, &s->grid));
+        VES_TRY(ves_grid_given(rows, part->u, part->count / rows, part->v,
+                               ves_patch_periodic(plan->patch[part->patch]), &plan->arena, &s->grid));
         s->wants = VES_X | VES_NORMAL;
         for (int m = 0; m < plan->problem->measures; m++)
             for (int p = 0; p < PROGRAMS && plan->problem->measure[m].measure->shell; p++)
@@ -75,8 +75,8 @@ static ves_status pointers_make(ves_plan *plan, plan_shell *shell)
     shell->weld = ves_arena_take(a, parts, sizeof *shell->weld);
     shell->far = ves_arena_take(a, parts, sizeof *shell->far);
     shell->spot = ves_arena_take(a, (size_t)shell->def->ats, sizeof *shell->spot);
-    if (!shell->X || !shell->normal || !shell->thickness || !shell->side || !shell->u_range || !shell->v_range ||
-        !shell->weld || !shell->far || !shell->spot)
+    if (!shell->X || !shell->normal || !shell->thickness || !shell->side || !shell->u_range ||
+        !shell->v_range || !shell->weld || !shell->far || !shell->spot)
         return VES_MEMORY;
     for (size_t k = 0; k < parts; k++) {
         const ves_samples *m = &plan->level[shell->level].site[shell->part[k].site].samples;
@@ -129,7 +129,8 @@ static void view_fill(ves_plan *plan, plan_shell *shell)
 static void input_fill(ves_plan *plan, plan_shell *shell)
 {
     const ves_shell_def *def = shell->def;
-    shell->input.material = (ves_shell_material){plan->block[def->E], plan->block[def->nu], plan->block[def->shear]};
+    shell->input.material =
+        (ves_shell_material){plan->block[def->E], plan->block[def->nu], plan->block[def->shear]};
     for (int k = 0; k < def->parts; k++)
         shell->side[k] = plan->level[shell->level].site[shell->part[k].site].side;
     ves_shell_loads_fill(plan, shell);

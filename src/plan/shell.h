@@ -72,13 +72,15 @@ ves_status ves_shell_weld(ves_plan *plan, plan_shell *shell);
 ves_status ves_shell_hold(ves_plan *plan, plan_shell *shell, ves_diag *diag);
 
 /* The node at a place, or the one that stands for it. */
-void ves_shell_spot_find(const ves_plan *plan, const plan_shell *shell, const ves_shell_at *at, ves_shell_spot *spot);
+void ves_shell_spot_find(const ves_plan *plan, const plan_shell *shell, const ves_shell_at *at,
+                         ves_shell_spot *spot);
 int ves_shell_place(const ves_plan *plan, const plan_shell *shell, const ves_shell_at *at);
 
 /* shell_load.c: planes that loads need, and what fills them */
 ves_status ves_shell_loads_make(ves_plan *plan, plan_shell *shell);
 void ves_shell_loads_fill(ves_plan *plan, plan_shell *shell);
 /* A formula of x, y, z, u, v at node s of a part. */
-double ves_shell_formula(ves_plan *plan, const plan_shell *shell, int part, int s, const ves_formula *formula);
+double ves_shell_formula(ves_plan *plan, const plan_shell *shell, int part, int s,
+                         const ves_formula *formula);
 
 #endif

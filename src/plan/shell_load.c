@@ -9,7 +9,8 @@
 /* Does any load of a case act so on this part? Gravity and forces per area share their planes. */
 static bool acts(const ves_load_def *load, int part, bool pressure)
 {
-    bool it = pressure ? load->kind == VES_LOAD_PRESSURE : load->kind == VES_LOAD_AREA || load->kind == VES_LOAD_GRAVITY;
+    bool it = pressure ? load->kind == VES_LOAD_PRESSURE
+                       : load->kind == VES_LOAD_AREA || load->kind == VES_LOAD_GRAVITY;
     for (int k = 0; it && k < load->parts; k++)
         if (load->part[k] == part) return true;
     return false;
@@ -77,7 +78,8 @@ double ves_shell_formula(ves_plan *plan, const plan_shell *shell, int part, int 
     return ves_formula_eval(formula, plan->block, at, plan->formula_room);
 }
 
-static void surface_fill(ves_plan *plan, plan_shell *shell, const ves_load_def *load, int part, ves_shell_load *to)
+static void surface_fill(ves_plan *plan, plan_shell *shell, const ves_load_def *load, int part,
+                         ves_shell_load *to)
 {
     const ves_shell_def *def = shell->def;
     double density = load->kind == VES_LOAD_GRAVITY ? plan->block[def->density] : 1;
@@ -96,13 +98,15 @@ static void edge_fill(ves_plan *plan, plan_shell *shell, const ves_load_def *loa
                       ves_shell_load *to)
 {
     const ves_shell_sheet *sheet = &shell->sheet[on->part];
-    double share = load->kind == VES_LOAD_LINE
-                       ? 1
-                       : 1 / (shell->sector.copies * ves_shell_length(shell->shell, &shell->input, on->part, on->edge));
+    double share =
+        load->kind == VES_LOAD_LINE
+            ? 1
+            : 1 / (shell->sector.copies * ves_shell_length(shell->shell, &shell->input, on->part, on->edge));
     for (int k = 0; k < ves_shell_edge_count(sheet, on->edge); k++)
         for (int c = 0; c < 3; c++)
             ((double *)to->line[on->edge][c])[k] +=
-                share * ves_shell_formula(plan, shell, on->part, ves_shell_edge_node(sheet, on->edge, k), load->formula[c]);
+                share * ves_shell_formula(plan, shell, on->part, ves_shell_edge_node(sheet, on->edge, k),
+                                          load->formula[c]);
 }
 
 static void case_clear(plan_shell *shell, int which)
@@ -128,7 +132,8 @@ static void case_fill(ves_plan *plan, plan_shell *shell, int which, int *points)
         const ves_load_def *load = &def->load[k];
         ves_shell_load *to = shell->load + which * shell->def->parts;
         const ves_shell_edge *on = pulled(load);
-        for (int i = 0; i < load->parts; i++) surface_fill(plan, shell, load, load->part[i], &to[load->part[i]]);
+        for (int i = 0; i < load->parts; i++)
+            surface_fill(plan, shell, load, load->part[i], &to[load->part[i]]);
         if (on) edge_fill(plan, shell, load, on, &to[on->part]);
         if (on || load->kind != VES_LOAD_FORCE) continue;
         int s = ves_shell_place(plan, shell, &load->at);

@@ -52,7 +52,8 @@ static bool goes_round(const ves_plan *plan, int patch)
 static double *knots(ves_plan *plan, int count, double from, double to, double grading)
 {
     double *knot = ves_arena_doubles(&plan->arena, (size_t)count + 1);
-    for (int k = 0; knot && k <= count; k++) knot[k] = from + (to - from) * graded((double)k / count, grading);
+    for (int k = 0; knot && k <= count; k++)
+        knot[k] = from + (to - from) * graded((double)k / count, grading);
     return knot;
 }
 
@@ -83,7 +84,8 @@ static bool place_fit(const ves_plan *plan, plan_shell *shell, const ves_shell_a
     ves_shell_sheet *sheet = &shell->sheet[at->part];
     const ves_place *place = &plan->problem->place[at->index];
     double map[3][3];
-    const double want[2] = {plan->block[place->u], ves_sector_place(&shell->sector, plan->block[place->v], map)};
+    const double want[2] = {plan->block[place->u],
+                            ves_sector_place(&shell->sector, plan->block[place->v], map)};
     for (int d = 0; d < 2; d++) {
         double *knot = (double *)sheet->knot[d];
         int n = sheet->elements[d], near = 0;
@@ -114,10 +116,11 @@ static ves_status places_fit(const ves_plan *plan, plan_shell *shell, ves_diag *
         for (int k = 0; k < def->ats; k++) FIT(&def->at[k]);
 #undef FIT
         if (!fits)
-            return ves_diag_add(diag, VES_ERROR, VES_RANGE, at->mark,
-                                "the mesh of the shell is too coarse for \"%s\" to be a node of its own: give the part "
-                                "more \"elements\"",
-                                at->text);
+            return ves_diag_add(
+                diag, VES_ERROR, VES_RANGE, at->mark,
+                "the mesh of the shell is too coarse for \"%s\" to be a node of its own: give the part "
+                "more \"elements\"",
+                at->text);
     }
     return VES_OK;
 }

@@ -89,7 +89,8 @@ static bool measure(seeker *k)
 }
 
 /* Values of a formula at the places of a part, in `out` (positions) given. */
-static double formula_at(const seeker *k, int part, const double *X, int i, double v, const ves_formula *formula)
+static double formula_at(const seeker *k, int part, const double *X, int i, double v,
+                         const ves_formula *formula)
 {
     const ves_patch_def *d = &k->plan->problem->patch[k->shell->def->part[part].patch];
     double at[VES_SHELL_ARGUMENTS] = {X[i], X[k->places + i], X[2 * k->places + i], k->u[i], v};
@@ -111,7 +112,8 @@ static double image_v(const seeker *k, const likeness *l, int i)
 }
 
 /* One formula, or three that are a vector, at places and at their images. */
-static bool formulas_alike(seeker *k, const likeness *l, int part, int count, const ves_formula *const *formula)
+static bool formulas_alike(seeker *k, const likeness *l, int part, int count,
+                           const ves_formula *const *formula)
 {
     double before[3 * PLACES], most = 0, worst = 0;
     const double *X = points(k, part, 1, 0);
@@ -125,7 +127,8 @@ static bool formulas_alike(seeker *k, const likeness *l, int part, int count, co
     X = points(k, part, l->sign, l->shift);
     for (int i = 0; i < k->places; i++)
         for (int c = 0; c < count; c++) {
-            double apart = fabs(formula_at(k, part, X, i, image_v(k, l, i), formula[c]) - before[c * k->places + i]);
+            double apart =
+                fabs(formula_at(k, part, X, i, image_v(k, l, i), formula[c]) - before[c * k->places + i]);
             if (!(apart <= worst)) worst = apart;
         }
     return worst <= SAME * most || most == 0;
@@ -165,7 +168,8 @@ static bool support_alike(const seeker *k, const likeness *l, const ves_support_
     double move[3][3] = {{0}}, turn[3][3] = {{0}};
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++)
-            if (s->kind == VES_SUPPORT_SYMMETRY || s->kind == VES_SUPPORT_DIAPHRAGM) move[i][j] = s->axis[i] * s->axis[j];
+            if (s->kind == VES_SUPPORT_SYMMETRY || s->kind == VES_SUPPORT_DIAPHRAGM)
+                move[i][j] = s->axis[i] * s->axis[j];
         if (s->kind == VES_SUPPORT_FIX) move[i][i] = s->fix >> i & 1, turn[i][i] = s->fix >> (3 + i) & 1;
         if (s->kind == VES_SUPPORT_SPRING) move[i][i] = k->plan->block[s->spring + i];
     }
@@ -238,7 +242,8 @@ static bool mirrored_alike(seeker *k, double v0, double normal[3])
 /* --- what holds at every design --- */
 
 typedef struct finding {
-    bool ring, fold[FOLDS + 1], mirror[FOLDS + 1][2]; /* by how many folds; mirror: also a plane at v0 = 0, or at a
+    bool ring, fold[FOLDS + 1],
+        mirror[FOLDS + 1][2]; /* by how many folds; mirror: also a plane at v0 = 0, or at a
                                                          quarter of a fold */
     bool any;
 } finding;
@@ -256,7 +261,8 @@ static void look(seeker *k, finding *f)
     for (int n = 1; n <= FOLDS; n++) {
         f->fold[n] = f->fold[n] && (n == 1 || f->ring || turned_alike(k, VES_TWO_PI / n, &l));
         for (int w = 0; w < 2; w++)
-            f->mirror[n][w] = f->mirror[n][w] && f->fold[n] && !f->ring && mirrored_alike(k, mirror_at(n, w), normal);
+            f->mirror[n][w] =
+                f->mirror[n][w] && f->fold[n] && !f->ring && mirrored_alike(k, mirror_at(n, w), normal);
     }
 }
 
@@ -284,7 +290,8 @@ static void sector_fill(seeker *k, const finding *f, plan_sector *s)
     for (int end = 0; end < 2 && s->mirrored; end++) plane_at(k, end ? s->to : s->from, s->mirror[end]);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
-            s->share[i][j] = n > 1 || s->ring ? k->axis[i] * k->axis[j] : (i == j) - s->mirror[0][i] * s->mirror[0][j];
+            s->share[i][j] =
+                n > 1 || s->ring ? k->axis[i] * k->axis[j] : (i == j) - s->mirror[0][i] * s->mirror[0][j];
     memcpy(s->axis, k->axis, sizeof s->axis);
 }
 
@@ -294,7 +301,8 @@ ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell)
     seeker k = {.plan = plan, .shell = shell};
     finding f = {.ring = true};
     long room = 0;
-    *s = (plan_sector){.whole = true, .to = VES_TWO_PI, .folds = 1, .copies = 1, .share = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    *s = (plan_sector){
+        .whole = true, .to = VES_TWO_PI, .folds = 1, .copies = 1, .share = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     if (!possible(plan, shell)) return VES_OK;
     for (int n = 1; n <= FOLDS; n++) f.fold[n] = f.mirror[n][0] = f.mirror[n][1] = true;
     for (int p = 0; p < shell->def->parts; p++) {
@@ -305,7 +313,8 @@ ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell)
     k.out = ves_arena_doubles(&plan->arena, (size_t)(3 * VES_POLE_FIELDS * PLACES));
     if (!k.room || !k.out) return VES_MEMORY;
     for (int i = 0; i < PLACES; i++)
-        k.u[i] = (i / AROUND + 0.3) / ALONG, k.v[i] = VES_TWO_PI * (i % AROUND + 0.1) / AROUND; /* the first few: of one ring */
+        k.u[i] = (i / AROUND + 0.3) / ALONG,
+        k.v[i] = VES_TWO_PI * (i % AROUND + 0.1) / AROUND; /* the first few: of one ring */
     for (int d = SHELL_DESIGNS - 1; d >= 0; d--) {
         ves_shell_design(plan, d);
         if (!measure(&k)) continue;

@@ -33,6 +33,14 @@ static bool is_new(const rim_node *rim, int count, int part, int s)
     return true;
 }
 
+/* What lies on the far side of a sector is no node of its own. */
+static bool is_far(const plan_shell *shell, int part, int s)
+{
+    const ves_shell_sheet *sheet = &shell->sheet[part];
+    bool turned = !shell->sector.whole && !shell->sector.mirrored;
+    return turned && s / ves_shell_rows(sheet) == ves_shell_columns(sheet) - 1;
+}
+
 static int rims_list(const plan_shell *shell, rim_node *rim)
 {
     int count = 0;
@@ -41,7 +49,8 @@ static int rims_list(const plan_shell *shell, rim_node *rim)
         for (int e = 0; e < (shell->sheet[k].closed ? 2 : VES_SHELL_EDGES); e++)
             for (int i = 0; i < ves_shell_edge_count(&shell->sheet[k], e); i++) {
                 int s = ves_shell_edge_node(&shell->sheet[k], e, i);
-                if (is_new(rim + first, count - first, k, s)) rim[count++] = (rim_node){.part = k, .s = s};
+                if (!is_far(shell, k, s) && is_new(rim + first, count - first, k, s))
+                    rim[count++] = (rim_node){.part = k, .s = s};
             }
     }
     return count;
@@ -99,19 +108,16 @@ static void number_inside(plan_shell *shell)
 {
     for (int k = 0; k < shell->def->parts; k++)
         for (int s = 0; s < shell->part[k].count; s++)
-            if (shell->part[k].weld[s] < 0) shell->part[k].weld[s] = shell->nodes++;
+            if (shell->part[k].weld[s] < 0 && !is_far(shell, k, s)) shell->part[k].weld[s] = shell->nodes++;
 }
 
 /* The far side of a sector is the near side of it, turned. */
 static void sector_close(const plan_shell *shell, int k)
 {
-    const ves_shell_sheet *sheet = &shell->sheet[k];
-    int rows = ves_shell_rows(sheet), columns = ves_shell_columns(sheet);
-    if (shell->sector.whole || shell->sector.mirrored) return;
-    for (int i = 0; i < rows; i++) {
-        shell->part[k].weld[(columns - 1) * rows + i] = shell->part[k].weld[i];
-        shell->part[k].far[(columns - 1) * rows + i] = true;
-    }
+    int rows = ves_shell_rows(&shell->sheet[k]);
+    plan_shell_part *part = &shell->part[k];
+    for (int s = 0; s < part->count; s++)
+        if (is_far(shell, k, s)) part->far[s] = true, part->weld[s] = part->weld[s % rows];
 }
 
 /* Edges first; of welded nodes the first gives the number. */
@@ -240,7 +246,8 @@ static bool frame_make(hold *h, ves_shell_node *node)
     return true;
 }
 
-void ves_shell_spot_find(const ves_plan *plan, const plan_shell *shell, const ves_shell_at *at, ves_shell_spot *spot)
+void ves_shell_spot_find(const ves_plan *plan, const plan_shell *shell, const ves_shell_at *at,
+                         ves_shell_spot *spot)
 {
     const ves_place *place = &plan->problem->place[at->index];
     const plan_shell_part *part = &shell->part[at->part];
@@ -265,7 +272,8 @@ static void support_spread(ves_plan *plan, const plan_shell *shell, const ves_su
 {
     const ves_shell_at *at = &support->at;
     if (support->kind == VES_SUPPORT_SPRING) return;
-    if (at->kind == VES_AT_PLACE) support_add(&h[shell->part[at->part].weld[ves_shell_place(plan, shell, at)]], support);
+    if (at->kind == VES_AT_PLACE)
+        support_add(&h[shell->part[at->part].weld[ves_shell_place(plan, shell, at)]], support);
     for (int k = 0; k < at->edges; k++)
         for (int i = 0; i < ves_shell_edge_count(&shell->sheet[at->on[k].part], at->on[k].edge); i++) {
             int s = ves_shell_edge_node(&shell->sheet[at->on[k].part], at->on[k].edge, i);
@@ -292,8 +300,9 @@ ves_status ves_shell_hold(ves_plan *plan, plan_shell *shell, ves_diag *diag)
     for (int k = 0; k < def->supports; k++) support_spread(plan, shell, &def->support[k], h);
     for (int k = 0; k < shell->nodes; k++)
         if (!frame_make(&h[k], &shell->node[k]))
-            return ves_diag_add(diag, VES_ERROR, VES_RANGE, def->support[0].mark,
-                                "supports of the shell that meet at one place hold it about axes that are askew to each "
-                                "other: fix: all there, or mirror planes at right angles");
+            return ves_diag_add(
+                diag, VES_ERROR, VES_RANGE, def->support[0].mark,
+                "supports of the shell that meet at one place hold it about axes that are askew to each "
+                "other: fix: all there, or mirror planes at right angles");
     return VES_OK;
 }

@@ -157,7 +157,8 @@ void ves_describe_kind(ves_writer *writer, const ves_key *key)
                                         "three formulas",
                                         "formula of x, y, z, H, K, k1, k2, u, v",
                                         "load case",
-                                        "curve, PATCH.u0, .u1, .v0 or .v1, or place"};
+                                        "curve, PATCH.u0, .u1, .v0 or .v1, or place",
+                                        "formula of x, y, z, u, v, thickness"};
     static const char *const compound[] = {"mapping",
                                            "names",
                                            "list",
@@ -249,7 +250,7 @@ static void sample(ves_writer *writer, const ves_key *key)
         "[[1, p1]]", "",       "true",
         "",          "text",   "p1",
         "p1",        "[wall]", "[\"cos(v)\", \"sin(v)\", \"0\"]",
-        "\"H^2\"",   "stack",  "p1"};
+        "\"H^2\"",   "stack",  "p1",   "\"u > 0.1\""};
     if (number_kind(key))
         ves_write(writer, "%g", key->min > 1 ? ceil(key->min / 2) * 2 : 1.0);
     else if (key->kind == VES_CHOICE)

@@ -55,6 +55,7 @@ static void leaf(ves_writer *w, const ves_key *key)
         NUMBER,
         "\"type\":\"string\"",
         "\"type\":\"string\"",
+        NUMBER,
     };
     bool number = key->kind == VES_NUMBER || key->kind == VES_COUNT;
     if (key->kind == VES_CHOICE)

@@ -47,6 +47,8 @@ struct ves_shell {
     double *K;       /* [columns][columns] */
     double *strain;
     ves_shell_stresses stresses;
+    bool asked; /* whether it is held: `held` */
+    ves_status held;
     int stressed; /* the case that they are of, -1: none */
     cholmod_common common;
     cholmod_sparse *matrix;
@@ -68,6 +70,9 @@ void ves_shell_field(ves_shell *shell, const shell_element *element, const doubl
 
 /* How many directions of its tangent plane a smooth node is held about, at the input at hand. */
 int ves_shell_rank(const ves_shell *shell, int node);
+
+/* rigid.c: VES_LOOSE: some part of it may move as a rigid body. Of the matrix at hand. */
+ves_status ves_shell_held(ves_shell *shell);
 
 /* stress.c */
 ves_status ves_shell_stresses_make(ves_shell *shell, ves_arena *arena);

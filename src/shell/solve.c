@@ -7,9 +7,6 @@
 
 #include "base/vector.h"
 
-/* The factor of a matrix that can move without strain has a pivot that is nothing but rounding. */
-static const double LOOSE = 1e-13;
-
 static ves_status kinds_make(ves_shell *shell, ves_arena *arena)
 {
     const ves_shell_model *m = shell->model;
@@ -106,12 +103,6 @@ int ves_shell_freedoms(const ves_shell *shell)
     return shell->freedoms;
 }
 
-static bool is_loose(ves_shell *shell)
-{
-    return shell->common.status == CHOLMOD_NOT_POSDEF ||
-           cholmod_rcond(shell->factor, &shell->common) < LOOSE * LOOSE;
-}
-
 ves_status ves_shell_solve(ves_shell *shell, const ves_shell_input *input)
 {
     cholmod_common *c = &shell->common;
@@ -120,9 +111,11 @@ ves_status ves_shell_solve(ves_shell *shell, const ves_shell_input *input)
     omp_set_max_active_levels(0); /* CHOLMOD would start four threads for each of ours */
     ves_shell_pivots(shell);
     VES_TRY(ves_shell_assemble(shell));
+    if (!shell->asked) shell->held = ves_shell_held(shell), shell->asked = true;
+    VES_TRY(shell->held);
     ves_shell_loads(shell);
     if (!cholmod_factorize(shell->matrix, shell->factor, c) && c->status < 0) return VES_MEMORY;
-    if (is_loose(shell)) return VES_LOOSE;
+    if (c->status == CHOLMOD_NOT_POSDEF) return VES_LOOSE;
     if (!cholmod_solve2(CHOLMOD_A, shell->factor, shell->force, NULL, &shell->solution, NULL, &shell->Y,
                         &shell->E, c))
         return VES_MEMORY;

@@ -15,8 +15,8 @@ typedef struct ves_shell_view {
     ves_shell *shell;
     const ves_shell_model *model;
     const ves_shell_input *input;
-    double copies;        /* how many of the sector make the whole: of energies */
-    double share[3][3];   /* a force of the sector adds copies * share * force to that of the whole */
+    double copies;              /* how many of the sector make the whole: of energies */
+    double share[3][3];         /* a force of the sector adds copies * share * force to that of the whole */
     const ves_shell_spot *spot; /* [places that the file names] */
     /* [sheets] what formulas of u and v mean (ves_samples) */
     const double (*u_range)[2], (*v_range)[2];

@@ -4,7 +4,8 @@
 enum { CASE };
 
 static const ves_key KEYS[] = {
-    {.name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"}, {.name = NULL}};
+    {.name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"},
+    {.name = NULL}};
 
 /* F . u, twice the strain energy of the whole shell.
  * test  cantilevers; hyperboloids against another program */
@@ -14,11 +15,12 @@ static ves_status eval(const ves_measure_input *input, double *value)
     return VES_OK;
 }
 
-const ves_measure ves_measure_compliance = {.name = "compliance",
-                                            .about = "work of the loads, F . u: twice the strain energy of the shell",
-                                            .unit = "J",
-                                            .degree = VES_NO_DEGREE,
-                                            .cost = 1,
-                                            .shell = true,
-                                            .keys = KEYS,
-                                            .eval = eval};
+const ves_measure ves_measure_compliance = {
+    .name = "compliance",
+    .about = "work of the loads, F . u: twice the strain energy of the shell",
+    .unit = "J",
+    .degree = VES_NO_DEGREE,
+    .cost = 1,
+    .shell = true,
+    .keys = KEYS,
+    .eval = eval};

@@ -8,8 +8,14 @@ enum { CASE, AT, ALONG };
 
 static const ves_key KEYS[] = {
     {.name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"},
-    {.name = "at", .kind = VES_SHELL_AT, .about = "where: a place, or the mean along a curve or an edge; unless given the largest of all"},
-    {.name = "along", .kind = VES_VECTOR, .unit = "1", .about = "the part along this direction, with its sign; unless given the length, or [0, 1, 0] along a curve or an edge"},
+    {.name = "at",
+     .kind = VES_SHELL_AT,
+     .about = "where: a place, or the mean along a curve or an edge; unless given the largest of all"},
+    {.name = "along",
+     .kind = VES_VECTOR,
+     .unit = "1",
+     .about = "the part along this direction, with its sign; unless given the length, or [0, 1, 0] along a "
+              "curve or an edge"},
     {.name = NULL}};
 
 static void moved(const ves_measure_input *input, int sheet, int s, double U[3])
