@@ -35,7 +35,7 @@ Test(measure, the_registry_is_complete_and_speaks)
             cr_assert((key->kind == VES_CHOICE) == (key->words != NULL), "%s: %s", (*m)->name, key->name);
         }
     }
-    cr_assert(count == 26, "got %d measures, want 26", count);
+    cr_assert(count == 31, "got %d measures, want 31", count);
     static const ves_measure extra = {.name = "mine"};
     const ves_measure *const plugin[] = {&extra, NULL};
     cr_assert(ves_measure_find("mine", plugin) == &extra && !ves_measure_find("mine", NULL));
@@ -461,8 +461,8 @@ Test(measure, scaling_a_shape_scales_a_measure_by_its_degree)
 Test(measure, rigid_motions_leave_all_but_positions_alone)
 {
     body b = body_init(wavy_tube, -1, 1.129, 0.217, 1.713);
-    static const char *const name[] = {"area",           "volume",          "bending",      "willmore",
-                                       "mean_curvature", "gauss_curvature", "max_curvature"};
+    static const char *const name[] = {"area",           "volume",          "bending",       "willmore",
+                                       "mean_curvature", "gauss_curvature", "max_curvature", "min_radius"};
     for (uint64_t seed = 1; seed < 6; seed++) {
         body moved = body_moved(b, seed);
         for (size_t k = 0; k < sizeof name / sizeof *name; k++) {
@@ -477,11 +477,10 @@ Test(measure, what_has_no_number_is_refused_and_the_value_left_alone)
     body b = body_init(torus, -1, 2.385, 0.731, 0);
     const struct {
         const char *measure, *key, *formula;
-    } table[] = {{"extent", "along", NULL},
-                 {"centroid", "along", NULL},
-                 {"max", "of", "sqrt(z)"},
-                 {"min", "of", "1/(x - x)"},
-                 {"max", "of", "log(-1 - x^2)"}};
+    } table[] = {
+        {"extent", "along", NULL},        {"draft_angle", "axis", NULL}, {"undercut", "axis", NULL},
+        {"brimful_volume", "axis", NULL}, {"fill_volume", "axis", NULL}, {"centroid", "along", NULL},
+        {"max", "of", "sqrt(z)"},         {"min", "of", "1/(x - x)"},    {"max", "of", "log(-1 - x^2)"}};
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         double value = 42;
         rig r;
@@ -495,8 +494,8 @@ Test(measure, what_has_no_number_is_refused_and_the_value_left_alone)
         cr_assert(rig_try(&r, &value) == VES_NO_NUMBER && value == 42, "%s", table[k].measure);
         rig_close(&r);
     }
-    static const char *const lost[] = {"height", "max_curvature"};
-    for (int k = 0; k < 2; k++) {
+    static const char *const lost[] = {"height", "max_curvature", "draft_angle", "min_radius"};
+    for (int k = 0; k < 4; k++) {
         double value = 42;
         rig r;
         rig_open(&r);

@@ -10,7 +10,7 @@ typedef struct use {
     const char *measure, *formula;
     double smooth;
     int choice;
-    bool along, curves, plane;
+    bool along, axis, curves, plane;
     struct {
         const char *key;
         double value;
@@ -58,6 +58,17 @@ static const use USES[] = {
     {.measure = "ade", .numbers = {{"c0", 0.9}, {"alpha", 0.2}, {"m0", 1.7}, {"kappa_g", 0.3}}},
     {.measure = "adhesion", .numbers = {{"w", 0.8}, {"range", 1.9}}, .plane = true},
     {.measure = "line_tension", .numbers = {{"sigma", 0.6}}, .curves = true},
+    {.measure = "draft_angle", .axis = true},
+    {.measure = "draft_angle", .axis = true, .smooth = 4.5},
+    {.measure = "undercut", .axis = true},
+    {.measure = "undercut"},
+    {.measure = "min_radius"},
+    {.measure = "min_radius", .choice = 2},
+    {.measure = "fill_volume", .axis = true, .numbers = {{"height", 0.3}}},
+    {.measure = "fill_volume", .axis = true, .numbers = {{"below", 0.4}}},
+    {.measure = "fill_volume", .axis = true, .numbers = {{"height", 0.3}, {"below", 0.1}}},
+    {.measure = "brimful_volume", .axis = true},
+    {.measure = "brimful_volume", .axis = true, .curves = true},
 };
 
 enum { COUNT = sizeof USES / sizeof *USES };
@@ -77,6 +88,9 @@ static void furnish(rig *r, const use *how, const body *b)
     if (how->formula) rig_formula(r, "of", how->formula);
     if (how->smooth > 0) rig_number(r, "smooth", how->smooth);
     if (how->along) rig_vector(r, "along", 0.4, -1.3, 0.7);
+    if (how->axis) rig_vector(r, "axis", 0.4, -1.3, 0.7);
+    if (how->curves && !strcmp(how->measure, "brimful_volume")) rig_key(r, "rim")->given = true;
+    if (!strcmp(how->measure, "min_radius")) rig_choice(r, "side", how->choice);
     if (!strcmp(how->measure, "centroid")) rig_choice(r, "of", how->choice);
     if (how->plane) rig_vector(r, "at", 0.3, -0.2, 0.1), rig_vector(r, "normal", 0.3, 0.5, 1.1);
     if (!strcmp(how->measure, "line_tension")) rig_key(r, "curve")->given = true;
@@ -179,6 +193,17 @@ Test(measure_gradient, carries_through_all_planes_along_a_family_of_shapes)
             body b = body_moved(body_init(wavy_tube, -1, 1.129, 0.217, 1.713), 3);
             check_family(&USES[k], &b, parameter, STEP, TOLERANCE);
         }
+}
+
+/* Two nodes that mirror each other are the most hollow: a change of one alone meets a kink, a change of the shape does
+ * not. */
+Test(measure_gradient, follows_the_most_hollow_place_of_a_symmetric_shape)
+{
+    const use hollow = {.measure = "min_radius", .choice = 1};
+    for (int parameter = 0; parameter < 3; parameter++) {
+        body b = body_moved(body_init(wavy_tube, -1, 1.129, 0.217, 1.713), 3);
+        check_family(&hollow, &b, parameter, STEP, TOLERANCE);
+    }
 }
 
 /* At a sphere k1 = k2 everywhere: measures that treat them alike are smooth there, and their gradients must
