@@ -68,6 +68,7 @@ static const use USES[] = {
     {.measure = "fill_volume", .axis = true, .numbers = {{"below", 0.4}}},
     {.measure = "fill_volume", .axis = true, .numbers = {{"height", 0.3}, {"below", 0.1}}},
     {.measure = "brimful_volume", .axis = true},
+    {.measure = "nesting_pitch", .axis = true, .numbers = {{"thickness", 0.15}}},
     {.measure = "brimful_volume", .axis = true, .curves = true},
 };
 
