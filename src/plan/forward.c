@@ -18,7 +18,7 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
     const ves_problem *p = plan->problem;
     for (int m = 0; m < p->measures; m++) {
         if (!plan->runs[which][m] || (p->measure[m].measure->cost > 0) != dear) continue;
-        if (p->measure[m].measure->shell) VES_TRY(ves_shell_run(plan, index));
+        if (p->measure[m].measure->shell && dear) VES_TRY(ves_shell_run(plan, index));
         ves_status status =
             p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]);
         /* a plugin's own word for "cannot be measured"; only the plan cuts */

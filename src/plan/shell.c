@@ -37,7 +37,10 @@ ves_status ves_shell_begin(ves_plan *plan, int index, ves_diag *diag)
     if (!shell) return VES_MEMORY;
     l->shell = shell;
     shell->def = plan->problem->shell, shell->level = index;
-    VES_TRY(ves_shell_sector_find(plan, shell));
+    if (index > 0 && plan->level[0].shell)
+        shell->sector = plan->level[0].shell->sector;
+    else
+        VES_TRY(ves_shell_sector_find(plan, shell));
     return ves_shell_mesh(plan, shell, diag);
 }
 
@@ -74,15 +77,17 @@ static ves_status pointers_make(ves_plan *plan, plan_shell *shell)
     shell->v_range = ves_arena_take(a, parts, sizeof *shell->v_range);
     shell->weld = ves_arena_take(a, parts, sizeof *shell->weld);
     shell->far = ves_arena_take(a, parts, sizeof *shell->far);
+    shell->formula = ves_arena_take(a, (size_t)plan->problem->patches, sizeof *shell->formula);
     shell->spot = ves_arena_take(a, (size_t)shell->def->ats, sizeof *shell->spot);
     if (!shell->X || !shell->normal || !shell->thickness || !shell->side || !shell->u_range ||
-        !shell->v_range || !shell->weld || !shell->far || !shell->spot)
+        !shell->v_range || !shell->weld || !shell->far || !shell->formula || !shell->spot)
         return VES_MEMORY;
     for (size_t k = 0; k < parts; k++) {
         const ves_samples *m = &plan->level[shell->level].site[shell->part[k].site].samples;
         for (int c = 0; c < 3; c++) shell->X[k][c] = m->X[c], shell->normal[k][c] = m->normal[c];
         memcpy(shell->u_range[k], m->u_range, sizeof m->u_range);
         memcpy(shell->v_range[k], m->v_range, sizeof m->v_range);
+        shell->formula[shell->part[k].patch] = shell->def->part[k].thickness;
         shell->thickness[k] = shell->part[k].thickness;
         shell->weld[k] = shell->part[k].weld, shell->far[k] = shell->part[k].far;
     }
@@ -112,6 +117,8 @@ static void view_fill(ves_plan *plan, plan_shell *shell)
                           .input = &shell->input,
                           .copies = shell->sector.copies,
                           .spot = shell->spot,
+                          .density = shell->def->density,
+                          .thickness = shell->formula,
                           .u_range = (const double(*)[2])shell->u_range,
                           .v_range = (const double(*)[2])shell->v_range};
     memcpy(v->share, shell->sector.share, sizeof v->share);

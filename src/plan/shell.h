@@ -48,6 +48,7 @@ struct plan_shell {
     ves_shell_spot *spot;
     const double *(*X)[3], *(*normal)[3], **thickness;
     double *side, (*u_range)[2], (*v_range)[2];
+    const ves_formula **formula; /* [patches] of thickness */
     const int **weld;
     const bool **far;
     ves_shell *shell;

@@ -65,8 +65,8 @@ static bool measure(seeker *k)
     double most = 0;
     k->size = 0;
     k->places = PLACES;
+    const double *X = points(k, 0, 1, 0);
     for (int row = 0; row < ALONG; row++) {
-        const double *X = points(k, 0, 1, 0);
         double mean[3] = {0}, area[3] = {0};
         for (int c = 0; c < 3; c++)
             for (int j = 0; j < AROUND; j++) mean[c] += X[c * PLACES + row * AROUND + j] / AROUND;
@@ -194,11 +194,14 @@ static bool load_alike(seeker *k, const likeness *l, const ves_load_def *load)
 static bool alike(seeker *k, const likeness *l)
 {
     const ves_shell_def *def = k->shell->def;
-    k->places = FEW;
-    if (!shape_alike(k, l, 0)) return false;
-    k->places = PLACES;
-    for (int p = 0; p < def->parts; p++)
+    for (int p = 0; p < def->parts; p++) {
+        k->places = FEW;
+        if (!shape_alike(k, l, p)) return false;
+    }
+    for (int p = 0; p < def->parts; p++) {
+        k->places = PLACES;
         if (!shape_alike(k, l, p) || !formulas_alike(k, l, p, 1, &def->part[p].thickness)) return false;
+    }
     for (int s = 0; s < def->supports; s++)
         if (!support_alike(k, l, &def->support[s])) return false;
     for (int c = 0; c < def->cases; c++)

@@ -14,15 +14,16 @@ enum { MOTIONS = 6 };
 static const double ROUNDING = 1e-15;
 
 typedef struct motions {
-    double *vector[MOTIONS]; /* [freedoms] */
-    int *part;               /* [nodes] */
+    double *vector[MOTIONS], *product; /* [freedoms] */
+    int *part;                         /* [nodes] */
     int parts;
 } motions;
 
 static ves_status motions_take(const ves_shell *shell, ves_arena *arena, motions *m)
 {
     m->part = ves_arena_take(arena, (size_t)shell->model->nodes, sizeof *m->part);
-    if (!m->part) return VES_MEMORY;
+    m->product = ves_arena_doubles(arena, (size_t)shell->freedoms);
+    if (!m->part || !m->product) return VES_MEMORY;
     for (int k = 0; k < MOTIONS; k++) {
         m->vector[k] = ves_arena_doubles(arena, (size_t)shell->freedoms);
         if (!m->vector[k]) return VES_MEMORY;
@@ -76,19 +77,34 @@ static void motion_fill(const ves_shell *shell, const int *part, int which, cons
     }
 }
 
-/* a' K b, and a' diag(K) b, of the lower triangle. */
-static double product(const ves_shell *shell, const double *a, const double *b, double *diagonal)
+/* K b, of the lower triangle. */
+static void product(const ves_shell *shell, const double *b, double *out)
 {
     const int *p = shell->matrix->p, *row = shell->matrix->i;
     const double *x = shell->matrix->x;
-    double sum = 0;
-    *diagonal = 0;
+    memset(out, 0, sizeof *out * (size_t)shell->freedoms);
     for (int j = 0; j < shell->freedoms; j++) {
-        double own = a[j] * x[p[j]] * b[j];
-        sum += own, *diagonal += own;
-        for (int k = p[j] + 1; k < p[j + 1]; k++) sum += x[k] * (a[j] * b[row[k]] + a[row[k]] * b[j]);
+        out[j] += x[p[j]] * b[j];
+        for (int k = p[j] + 1; k < p[j + 1]; k++) out[j] += x[k] * b[row[k]], out[row[k]] += x[k] * b[j];
     }
-    return sum;
+}
+
+/* K and D = diag(K) in terms of the motions. */
+static void project(const ves_shell *shell, const motions *m, double *K, double *D)
+{
+    const int *p = shell->matrix->p;
+    const double *x = shell->matrix->x;
+    for (int j = 0; j < MOTIONS; j++) {
+        product(shell, m->vector[j], m->product);
+        for (int i = 0; i < MOTIONS; i++) {
+            double k = 0, d = 0;
+            for (int f = 0; f < shell->freedoms; f++) {
+                k += m->vector[i][f] * m->product[f];
+                d += m->vector[i][f] * x[p[f]] * m->vector[j][f];
+            }
+            K[i * MOTIONS + j] = k, D[i * MOTIONS + j] = d;
+        }
+    }
 }
 
 /* The least of x' K x / x' D x over combinations of the motions. */
@@ -96,9 +112,7 @@ static double least(const ves_shell *shell, const motions *m)
 {
     double K[MOTIONS * MOTIONS], D[MOTIONS * MOTIONS], value[MOTIONS], V[MOTIONS * MOTIONS],
         R[MOTIONS * MOTIONS] = {0};
-    for (int i = 0; i < MOTIONS; i++)
-        for (int j = 0; j < MOTIONS; j++)
-            K[i * MOTIONS + j] = product(shell, m->vector[i], m->vector[j], &D[i * MOTIONS + j]);
+    project(shell, m, K, D);
     ves_eigen_symmetric(MOTIONS, D, value, V);
     double most = 0, found = HUGE_VAL;
     for (int k = 0; k < MOTIONS; k++) most = fmax(most, value[k]);
