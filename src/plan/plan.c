@@ -46,6 +46,12 @@ static ves_status runs_make(ves_plan *plan)
             plan->runs[PROGRAM_SOLVE][m]; /* the gradient of the root needs them too */
         plan->runs[PROGRAM_ALL][m] = true;
     }
+    for (int m = 0; m < p->measures && plan->trial;
+         m++) { /* to choose a grid, which meshes of shells are not on */
+        const ves_measure *measure = p->measure[m].measure;
+        bool spared = measure->shell && measure->cost > 0 && !plan->runs[PROGRAM_SOLVE][m];
+        for (int w = 0; w < PROGRAMS && spared; w++) plan->runs[w][m] = false;
+    }
     return VES_OK;
 }
 

@@ -22,22 +22,28 @@ void ves_shell_design(ves_plan *plan, int k)
 
 /* --- building --- */
 
-static bool wanted(const ves_problem *p)
+/* light: also by a measure that only reads what the shell is made of. */
+static bool wanted(const ves_plan *plan, bool light)
 {
-    for (int m = 0; m < p->measures; m++)
-        if (p->measure[m].measure->shell) return true;
+    const ves_problem *p = plan->problem;
+    for (int m = 0; m < p->measures; m++) {
+        const ves_measure *measure = p->measure[m].measure;
+        if (measure->shell && (light || (measure->cost > 0 && plan->runs[PROGRAM_ALL][m]))) return true;
+    }
     return false;
 }
 
 ves_status ves_shell_begin(ves_plan *plan, int index, ves_diag *diag)
 {
     plan_level *l = &plan->level[index];
-    if (!plan->problem->shell || !wanted(plan->problem)) return VES_OK;
+    if (!plan->problem->shell || !wanted(plan, true)) return VES_OK;
     plan_shell *shell = ves_arena_take(&plan->arena, 1, sizeof *shell);
     if (!shell) return VES_MEMORY;
     l->shell = shell;
     shell->def = plan->problem->shell, shell->level = index;
-    if (index > 0 && plan->level[0].shell)
+    shell->solid = wanted(plan, false);
+    if (!shell->solid) return VES_OK;
+    if (index > 0)
         shell->sector = plan->level[0].shell->sector;
     else
         VES_TRY(ves_shell_sector_find(plan, shell));
@@ -49,7 +55,7 @@ ves_status ves_shell_sites(ves_plan *plan, int index)
 {
     plan_level *l = &plan->level[index];
     plan_shell *shell = l->shell;
-    for (int k = 0; shell && k < shell->def->parts; k++) {
+    for (int k = 0; shell && shell->solid && k < shell->def->parts; k++) {
         plan_shell_part *part = &shell->part[k];
         plan_site *s = &l->site[l->sites];
         *s = (plan_site){.patch = part->patch, .curve = -1, .samples.site = VES_SITE_SURFACE, .mesh = true};
@@ -77,17 +83,15 @@ static ves_status pointers_make(ves_plan *plan, plan_shell *shell)
     shell->v_range = ves_arena_take(a, parts, sizeof *shell->v_range);
     shell->weld = ves_arena_take(a, parts, sizeof *shell->weld);
     shell->far = ves_arena_take(a, parts, sizeof *shell->far);
-    shell->formula = ves_arena_take(a, (size_t)plan->problem->patches, sizeof *shell->formula);
     shell->spot = ves_arena_take(a, (size_t)shell->def->ats, sizeof *shell->spot);
     if (!shell->X || !shell->normal || !shell->thickness || !shell->side || !shell->u_range ||
-        !shell->v_range || !shell->weld || !shell->far || !shell->formula || !shell->spot)
+        !shell->v_range || !shell->weld || !shell->far || !shell->spot)
         return VES_MEMORY;
     for (size_t k = 0; k < parts; k++) {
         const ves_samples *m = &plan->level[shell->level].site[shell->part[k].site].samples;
         for (int c = 0; c < 3; c++) shell->X[k][c] = m->X[c], shell->normal[k][c] = m->normal[c];
         memcpy(shell->u_range[k], m->u_range, sizeof m->u_range);
         memcpy(shell->v_range[k], m->v_range, sizeof m->v_range);
-        shell->formula[shell->part[k].patch] = shell->def->part[k].thickness;
         shell->thickness[k] = shell->part[k].thickness;
         shell->weld[k] = shell->part[k].weld, shell->far[k] = shell->part[k].far;
     }
@@ -109,18 +113,24 @@ static void model_fill(plan_shell *shell)
     in->load = shell->load, in->point = shell->point;
 }
 
+/* What measures read that ask for no solution. */
+static ves_status view_begin(ves_plan *plan, plan_shell *shell)
+{
+    shell->formula = ves_arena_take(&plan->arena, (size_t)plan->problem->patches, sizeof *shell->formula);
+    if (!shell->formula) return VES_MEMORY;
+    for (int k = 0; k < shell->def->parts; k++)
+        shell->formula[shell->def->part[k].patch] = shell->def->part[k].thickness;
+    shell->view = (ves_shell_view){.density = shell->def->density, .thickness = shell->formula};
+    return VES_OK;
+}
+
 static void view_fill(ves_plan *plan, plan_shell *shell)
 {
     ves_shell_view *v = &shell->view;
-    *v = (ves_shell_view){.shell = shell->shell,
-                          .model = &shell->model,
-                          .input = &shell->input,
-                          .copies = shell->sector.copies,
-                          .spot = shell->spot,
-                          .density = shell->def->density,
-                          .thickness = shell->formula,
-                          .u_range = (const double(*)[2])shell->u_range,
-                          .v_range = (const double(*)[2])shell->v_range};
+    v->shell = shell->shell, v->model = &shell->model, v->input = &shell->input;
+    v->copies = shell->sector.copies;
+    v->spot = shell->spot;
+    v->u_range = (const double(*)[2])shell->u_range, v->v_range = (const double(*)[2])shell->v_range;
     memcpy(v->share, shell->sector.share, sizeof v->share);
     for (int k = 0; k < shell->def->ats; k++) {
         const ves_shell_at *at = &shell->def->at[k];
@@ -148,6 +158,8 @@ ves_status ves_shell_finish(ves_plan *plan, int index, ves_diag *diag)
 {
     plan_shell *shell = plan->level[index].shell;
     if (!shell) return VES_OK;
+    VES_TRY(view_begin(plan, shell));
+    if (!shell->solid) return VES_OK;
     VES_TRY(pointers_make(plan, shell));
     VES_TRY(ves_shell_weld(plan, shell));
     VES_TRY(ves_shell_hold(plan, shell, diag));

@@ -35,7 +35,9 @@ typedef struct plan_shell_part {
 struct plan_shell {
     const ves_shell_def *def;
     int level;
+    bool solid; /* some measure asks for its solution; else there is only what the light ones read */
     plan_sector sector;
+    int waves;             /* around */
     plan_shell_part *part; /* [def->parts] */
     ves_shell_sheet *sheet;
     ves_shell_node *node;

@@ -76,7 +76,8 @@ static ves_status tiles_cut(ves_plan *plan, plan_site *s)
 static unsigned chart_fields(const ves_plan *plan, plan_site *s, ves_site kind)
 {
     for (int end = 0; end < 2; end++)
-        s->pole[end] = (kind == VES_SITE_LOOK || s->mesh) && s->wants & FORM_NEEDS && ves_end_is_pole(plan, s->patch, end);
+        s->pole[end] = (kind == VES_SITE_LOOK || s->mesh) && s->wants & FORM_NEEDS &&
+                       ves_end_is_pole(plan, s->patch, end);
     return s->pole[0] || s->pole[1] ? AT_POLE : fields_for(s->wants);
 }
 
