@@ -69,7 +69,8 @@ static inline double case_graded(double t, double g)
     return t < 0.5 ? 0.5 * pow(2 * t, g) : 1 - 0.5 * pow(2 - 2 * t, g);
 }
 
-static inline void case_mesh(shell_case *c)
+/* ring: a strip, one element of order 1 along v */
+static inline void case_mesh_with(shell_case *c, bool ring)
 {
     double *knot[2];
     for (int d = 0; d < 2; d++) {
@@ -79,7 +80,8 @@ static inline void case_mesh(shell_case *c)
             knot[d][k] =
                 range[0] + (range[1] - range[0]) * case_graded((double)k / c->elements[d], c->grading[d]);
     }
-    c->sheet = (ves_shell_sheet){.order = {c->order, c->order},
+    c->sheet = (ves_shell_sheet){.order = {c->order, ring ? 1 : c->order},
+                                 .ring = ring,
                                  .elements = {c->elements[0], c->elements[1]},
                                  .knot = {knot[0], knot[1]},
                                  .closed = c->closed};
@@ -111,6 +113,11 @@ static inline void case_mesh(shell_case *c)
                                  .side = c->side,
                                  .load = &c->load,
                                  .point = c->point};
+}
+
+static inline void case_mesh(shell_case *c)
+{
+    case_mesh_with(c, false);
 }
 
 enum { HELD_X = 1, HELD_Y = 2, HELD_Z = 4, HELD_RX = 8, HELD_RY = 16, HELD_RZ = 32, HELD_ALL = 63 };

@@ -32,6 +32,7 @@ extern "C" {
     X(UNDETERMINED, 17, "the conditions of a patch do not determine one of its modes")                       \
     X(BROKEN, 18, "a check of the file does not hold")                                                       \
     X(LOOSE, 19, "the supports of the shell let it move without strain")                                     \
+    X(NO_CONVERGENCE, 20, "an eigenvalue was not found in the steps that there are")                         \
     X(SYNTAX, -1, "the text cannot be read")                                                                 \
     X(NAME, -2, "a name is not known")                                                                       \
     X(UNIT, -3, "a dimension does not fit")                                                                  \

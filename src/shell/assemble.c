@@ -13,67 +13,85 @@ static double entry(const double *K, int columns, int i, int j)
     return i >= j ? K[j * columns + i] : K[i * columns + j];
 }
 
-static void block_add(const ves_shell *shell, int columns, int row, int column, int node_a, int node_b,
-                      int place)
+/* Values of the columns of one node in the pattern. */
+typedef struct block {
+    const shell_freedom *row, *column; /* of nodes a and b */
+    int from[2];                       /* in the element's matrix */
+    bool same;                         /* a is b */
+    int place;
+} block;
+
+static void block_add(const shell_layout *layout, const double *K, int columns, const block *b, double factor,
+                      double *x)
 {
-    const shell_freedom *a = &shell->freedom[node_a], *b = &shell->freedom[node_b];
-    const int *p = shell->matrix->p;
-    double *x = shell->matrix->x;
-    for (int c = 0; c < b->count; c++) {
-        double *to = x + p[b->first + c];
-        if (node_a == node_b)
-            for (int r = c; r < a->count; r++) to[r - c] += entry(shell->K, columns, row + r, column + c);
-        else
-            for (int r = 0; r < a->count; r++)
-                to[b->count - c + place + r] += entry(shell->K, columns, row + r, column + c);
+    const int *p = layout->matrix->p;
+    for (int c = 0; c < b->column->count; c++) {
+        double *to = x + p[b->column->first + c] + (b->same ? -c : b->column->count - c + b->place);
+        for (int r = b->same ? c : 0; r < b->row->count; r++)
+            to[r] += factor * entry(K, columns, b->from[0] + r, b->from[1] + c);
     }
 }
 
-static void element_add(const ves_shell *shell, const shell_element *e, int columns)
+/* Between a near row and a far column, exp(i a); the other way round its conjugate. */
+void ves_shell_element_add(const ves_shell *shell, const shell_layout *layout, const shell_element *e,
+                           int columns, const shell_parts *to)
 {
     int nodes = shell->kind[e->sheet].nodes;
-    const int *weld = shell->model->weld[e->sheet];
-    for (int b = 0, column = 0; b < nodes; column += shell->freedom[weld[e->s[b]]].count, b++)
-        for (int a = 0, row = 0; a < nodes; row += shell->freedom[weld[e->s[a]]].count, a++)
-            if (e->place[a * nodes + b] >= 0)
-                block_add(shell, columns, row, column, weld[e->s[a]], weld[e->s[b]], e->place[a * nodes + b]);
-}
-
-static void diagonal_add(ves_shell *shell, int freedom, double stiffness)
-{
-    ((double *)shell->matrix->x)[((const int *)shell->matrix->p)[freedom]] += stiffness;
+    const int *weld = shell->model->weld[e->sheet], *place = layout->place[e - shell->element];
+    for (int b = 0, column = 0; b < nodes; column += layout->freedom[weld[e->s[b]]].count, b++)
+        for (int a = 0, row = 0; a < nodes; row += layout->freedom[weld[e->s[a]]].count, a++) {
+            if (place[a * nodes + b] < 0) continue;
+            const block at = {.row = &layout->freedom[weld[e->s[a]]],
+                              .column = &layout->freedom[weld[e->s[b]]],
+                              .from = {row, column},
+                              .same = weld[e->s[a]] == weld[e->s[b]],
+                              .place = place[a * nodes + b]};
+            int phase = to->x[1] ? ves_shell_is_far(shell, e->sheet, e->s[b]) -
+                                       ves_shell_is_far(shell, e->sheet, e->s[a])
+                                 : 0;
+            block_add(layout, shell->K, columns, &at, 1, to->x[phase != 0]);
+            if (phase) block_add(layout, shell->K, columns, &at, phase, to->x[2]);
+        }
 }
 
 /* Springs at nodes, along x, y, z; a frame that is turned couples them, which is why frames of sprung nodes are not
  * (checked by who makes the model). */
-static void nodes_add(ves_shell *shell)
+void ves_shell_nodes_add(const ves_shell *shell, const shell_layout *layout, const shell_parts *to)
 {
+    const int *diagonal = layout->matrix->p;
     const ves_shell_model *m = shell->model;
     const ves_shell_input *in = shell->input;
     for (int k = 0; k < m->nodes; k++) {
-        const shell_freedom *f = &shell->freedom[k];
+        const shell_freedom *f = &layout->freedom[k];
         double t = in->thickness[shell->lead_sheet[k]][shell->lead[k]];
         for (int i = 0; i < 3; i++)
             if (f->moves[i] >= 0 && m->node[k].spring[i] > 0)
-                diagonal_add(shell, f->first + f->moves[i], m->node[k].spring[i]);
+                to->x[0][diagonal[f->first + f->moves[i]]] += m->node[k].spring[i];
         for (int i = 0; m->node[k].fold && i < 3; i++)
             if (f->turns[i] >= 0)
-                diagonal_add(shell, f->first + f->turns[i], DRILLING * in->material.E * t * t * t);
+                to->x[0][diagonal[f->first + f->turns[i]]] += DRILLING * in->material.E * t * t * t;
     }
 }
 
-ves_status ves_shell_assemble(ves_shell *shell)
+void ves_shell_parts_clear(const shell_layout *layout, const shell_parts *parts)
 {
-    memset(shell->matrix->x, 0, sizeof(double) * shell->matrix->nzmax);
+    for (int k = 0; k < 3; k++)
+        if (parts->x[k]) memset(parts->x[k], 0, sizeof(double) * layout->matrix->nzmax);
+}
+
+ves_status ves_shell_assemble(ves_shell *shell, const shell_layout *layout)
+{
+    const shell_parts whole = {{layout->matrix->x}};
+    ves_shell_parts_clear(layout, &whole);
     for (int i = 0; i < shell->elements; i++) {
         const shell_element *e = &shell->element[i];
         ves_shell_body body = ves_shell_gather(shell, e);
-        int columns = ves_shell_columns_of(shell, e);
+        int columns = ves_shell_columns_of(shell, layout, e);
         VES_TRY(ves_shell_stiffness(&body, &shell->input->material, columns, shell->column, &shell->scratch,
                                     shell->K));
         ves_shell_springs(shell, e, &body, columns);
-        element_add(shell, e, columns);
+        ves_shell_element_add(shell, layout, e, columns, &whole);
     }
-    nodes_add(shell);
+    ves_shell_nodes_add(shell, layout, &whole);
     return VES_OK;
 }

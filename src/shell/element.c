@@ -238,6 +238,76 @@ void ves_shell_strains(const ves_shell_body *body, const ves_shell_points *at, c
     rows_fill(body, at, &of, scratch->tied, strain);
 }
 
+/* --- the transpose --- */
+
+/* What forces on the eight strains at a point do on the motion there, and that on nodes. */
+static void strains_pull(const ves_shell_body *body, const ves_shell_table *t, int point, const double *g,
+                         double (*U)[3], double (*A)[3])
+{
+    const int nodes = body->kind->nodes, from = point * nodes;
+    ves_shell_frame f;
+    motion m;
+    ves_shell_frame_at(body, t, point, &f);
+    for (int c = 0; c < 3; c++) {
+        double Xr = f.Xr[c], Xs = f.Xs[c], Vr = f.Vr[c], Vs = f.Vs[c];
+        m.Ur[c] = g[0] * Xr + g[2] * Xs + Z * (g[3] * Vr + g[5] * Vs) + g[6] * f.V[c];
+        m.Us[c] = g[1] * Xs + g[2] * Xr + Z * (g[4] * Vs + g[5] * Vr) + g[7] * f.V[c];
+        m.A[c] = g[6] * Xr + g[7] * Xs;
+        m.Ar[c] = Z * Z * (g[0] * Vr + g[2] * Vs) + Z * (g[3] * Xr + g[5] * Xs);
+        m.As[c] = Z * Z * (g[1] * Vs + g[2] * Vr) + Z * (g[4] * Xs + g[5] * Xr);
+    }
+    for (int k = 0; k < nodes; k++) {
+        double N = t->N[from + k], Nr = t->Nr[from + k], Ns = t->Ns[from + k];
+        for (int c = 0; c < 3; c++) {
+            U[k][c] += Nr * m.Ur[c] + Ns * m.Us[c];
+            A[k][c] += N * m.A[c] + Nr * m.Ar[c] + Ns * m.As[c];
+        }
+    }
+}
+
+/* Takes from the forces at a point what belongs to tying points, and adds it there. */
+static void unmix(const ves_shell_body *body, const ves_shell_points *out, int q, const plus *p, double *row,
+                  double *tied)
+{
+    static const int OF[5] = {0, 0, 1, 1, 2};
+    const ves_shell_kind *kind = body->kind;
+    for (int k = 0, from = 0; k < VES_STRAINS; from += kind->tied[k].points, k++) {
+        if (kind->plus && bends(k)) {
+            double w[5];
+            plus_at(p, out->at[q], (ves_strain)k, w);
+            for (int i = 0; i < 5; i++)
+                tied[i * VES_GENERAL + OF[i]] +=
+                    w[i] * (i == 4 ? 0.5 : 1) * (k == VES_RS ? 2 : 1) * row[EVEN[k]];
+            row[EVEN[k]] = 0;
+        }
+        for (int part = 0; out->mix[k] && part < 1 + bends(k); part++) {
+            int at = EVEN[k] + 3 * part;
+            for (int i = 0; i < kind->tied[k].points; i++)
+                tied[(from + i) * VES_GENERAL + at] += out->mix[k][q * kind->tied[k].points + i] * row[at];
+            row[at] = 0;
+        }
+    }
+}
+
+void ves_shell_pull(const ves_shell_body *body, const ves_shell_points *at, const double *force,
+                    const ves_shell_scratch *scratch, double (*U)[3], double (*A)[3])
+{
+    const ves_shell_kind *kind = body->kind;
+    double *tied = scratch->tied;
+    plus p = {{0}};
+    if (kind->plus) plus_make(body, &p);
+    memset(tied, 0, sizeof *tied * (size_t)(tied_points(kind) * VES_GENERAL));
+    for (int q = 0; q < at->points; q++) {
+        double row[VES_GENERAL];
+        memcpy(row, force + q * VES_GENERAL, sizeof row);
+        unmix(body, at, q, &p, row, tied);
+        if (!all_mixed(at)) strains_pull(body, &at->table, q, row, U, A);
+    }
+    for (int k = 0; k < VES_STRAINS; k++)
+        for (int q = 0; q < kind->tied[k].points; q++, tied += VES_GENERAL)
+            strains_pull(body, &kind->tied[k], q, tied, U, A);
+}
+
 /* --- stiffness --- */
 
 ves_status ves_shell_scratch_make(const ves_shell_kind *kind, int kinds, int columns, ves_arena *arena,

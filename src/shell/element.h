@@ -20,6 +20,7 @@ typedef struct ves_shell_column {
     int node;
     bool turns;
     double vector[3];
+    double axis[3]; /* of a turn: vector = axis x V */
 } ves_shell_column;
 
 /* [nodes] of the element: positions and half-thickness directors (m). */
@@ -52,6 +53,11 @@ ves_status ves_shell_stiffness(const ves_shell_body *body, const ves_shell_mater
  * increments of the half-thickness director A [nodes][3]. */
 void ves_shell_strains(const ves_shell_body *body, const ves_shell_points *at, const double (*U)[3],
                        const double (*A)[3], const ves_shell_scratch *scratch, double *strain);
+
+/* The transpose: adds to forces [nodes][3] on displacements and on directors what such forces on the eight strains
+ * [points][VES_GENERAL] do. */
+void ves_shell_pull(const ves_shell_body *body, const ves_shell_points *at, const double *force,
+                    const ves_shell_scratch *scratch, double (*U)[3], double (*A)[3]);
 
 /* Cauchy stresses s11, s22, s12, s13, s23 in the local orthonormal frame (e1 along X_r, e3 normal to the lamina) at
  * level z = -1 .. 1, from the strains of a point. False: there is no such frame. */

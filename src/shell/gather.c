@@ -11,7 +11,7 @@ static void turned(const double turn[3][3], const double a[3], double out[3])
     for (int r = 0; r < 3; r++) out[r] = ves_dot(turn[r], a);
 }
 
-static bool is_far(const ves_shell *shell, int sheet, int s)
+bool ves_shell_is_far(const ves_shell *shell, int sheet, int s)
 {
     return shell->model->far && shell->model->far[sheet] && shell->model->far[sheet][s];
 }
@@ -49,12 +49,12 @@ static void tangents(const double n[3], double t[2][3])
 }
 
 /* The two axes of a smooth node, the one that it is held about most first; returns how much it is about the second. */
-static double smooth_axes(const ves_shell_node *node, const double n[3], double axis[2][3])
+static double smooth_axes(const ves_shell_node *node, unsigned held, const double n[3], double axis[2][3])
 {
     double t[2][3], G[3] = {0};
     tangents(n, t);
     for (int k = 0; k < 3; k++) {
-        if (!(node->held >> (3 + k) & 1)) continue;
+        if (!(held >> (3 + k) & 1)) continue;
         double a = ves_dot(node->frame[k], t[0]), b = ves_dot(node->frame[k], t[1]);
         G[0] += a * a, G[1] += a * b, G[2] += b * b;
     }
@@ -68,63 +68,70 @@ static double smooth_axes(const ves_shell_node *node, const double n[3], double 
 
 /* About how many directions of its tangent plane a smooth node may not turn: an axis that is nearly along its normal
  * holds nothing. */
-int ves_shell_rank(const ves_shell *shell, int node)
+unsigned ves_shell_mask(const ves_shell *shell, const shell_layout *layout, int node)
+{
+    return layout->held ? layout->held[node] : shell->model->node[node].held;
+}
+
+int ves_shell_rank(const ves_shell *shell, const shell_layout *layout, int node)
 {
     static const double HOLDS = 1e-6; /* squares of sines */
     const ves_shell_node *d = &shell->model->node[node];
+    unsigned held = ves_shell_mask(shell, layout, node);
     double n[3], axis[2][3], largest = 0;
     normal_of(shell, shell->lead_sheet[node], shell->lead[node], n);
-    double second = smooth_axes(d, n, axis);
+    double second = smooth_axes(d, held, n, axis);
     for (int k = 0; k < 3; k++)
-        if (d->held >> (3 + k) & 1) largest += pow(ves_dot(d->frame[k], axis[0]), 2);
+        if (held >> (3 + k) & 1) largest += pow(ves_dot(d->frame[k], axis[0]), 2);
     return (largest > HOLDS) + (second > HOLDS);
 }
 
-void ves_shell_pivots(ves_shell *shell)
+void ves_shell_pivots(const ves_shell *shell, shell_layout *layout)
 {
     const ves_shell_model *m = shell->model;
     for (int k = 0; k < m->nodes; k++) {
         const ves_shell_node *node = &m->node[k];
         double n[3], axis[2][3];
         if (node->fold) {
-            memcpy(shell->pivot[k].axis, node->frame, sizeof node->frame);
+            memcpy(layout->pivot[k].axis, node->frame, sizeof node->frame);
             continue;
         }
         normal_of(shell, shell->lead_sheet[k], shell->lead[k], n);
-        smooth_axes(node, n, axis);
-        memcpy(shell->pivot[k].axis, axis, sizeof axis);
+        smooth_axes(node, ves_shell_mask(shell, layout, k), n, axis);
+        memcpy(layout->pivot[k].axis, axis, sizeof axis);
     }
 }
 
 /* The vector of a rotation about an axis at s: what it does to the half-thickness director there. */
-static void director_vector(const ves_shell *shell, int sheet, int s, const double axis[3], double out[3])
+static void director_vector(const ves_shell *shell, int sheet, int s, const double axis[3],
+                            ves_shell_column *column)
 {
     const ves_shell_input *in = shell->input;
-    double n[3], about[3];
+    double n[3], *about = column->axis, *out = column->vector;
     normal_of(shell, sheet, s, n);
-    if (is_far(shell, sheet, s))
+    if (ves_shell_is_far(shell, sheet, s))
         turned(shell->model->turn, axis, about);
     else
-        memcpy(about, axis, sizeof about);
+        memcpy(about, axis, sizeof column->axis);
     ves_cross(about, n, out);
     for (int c = 0; c < 3; c++) out[c] *= in->side[sheet] * in->thickness[sheet][s] / 2;
 }
 
-int ves_shell_columns_of(ves_shell *shell, const shell_element *e)
+int ves_shell_columns_of(ves_shell *shell, const shell_layout *layout, const shell_element *e)
 {
     const ves_shell_model *m = shell->model;
     int count = 0;
     for (int k = 0; k < shell->kind[e->sheet].nodes; k++) {
         int s = e->s[k], node = m->weld[e->sheet][s];
-        const shell_freedom *f = &shell->freedom[node];
+        const shell_freedom *f = &layout->freedom[node];
         for (int i = 0; i < 6; i++) {
             int offset = i < 3 ? f->moves[i] : f->turns[i - 3];
             if (offset < 0) continue;
             ves_shell_column *c = &shell->column[count];
             c->node = k, c->turns = i > 2;
             if (c->turns)
-                director_vector(shell, e->sheet, s, shell->pivot[node].axis[i - 3], c->vector);
-            else if (is_far(shell, e->sheet, s))
+                director_vector(shell, e->sheet, s, layout->pivot[node].axis[i - 3], c);
+            else if (ves_shell_is_far(shell, e->sheet, s))
                 turned(m->turn, m->node[node].frame[i], c->vector);
             else
                 memcpy(c->vector, m->node[node].frame[i], sizeof c->vector);
@@ -134,9 +141,10 @@ int ves_shell_columns_of(ves_shell *shell, const shell_element *e)
     return count;
 }
 
-void ves_shell_field(ves_shell *shell, const shell_element *e, const double *vector)
+void ves_shell_field(ves_shell *shell, const shell_layout *layout, const shell_element *e,
+                     const double *vector)
 {
-    int count = ves_shell_columns_of(shell, e), nodes = shell->kind[e->sheet].nodes;
+    int count = ves_shell_columns_of(shell, layout, e), nodes = shell->kind[e->sheet].nodes;
     memset(shell->U, 0, sizeof *shell->U * (size_t)nodes);
     memset(shell->A, 0, sizeof *shell->A * (size_t)nodes);
     for (int i = 0; i < count; i++) {

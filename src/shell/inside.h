@@ -11,15 +11,12 @@
 typedef struct shell_freedom {
     int first, count;
     int moves[3], turns[3]; /* offset from first, or -1 */
-    int rank; /* of a smooth node: directions in the tangent plane about which it may not turn */
 } shell_freedom;
 
 typedef struct shell_element {
     int sheet, corner; /* s of its first node */
     int u, v;          /* its place in the sheet */
     int *s;            /* [nodes] of the sheet */
-    int *place; /* [nodes][nodes]: where the block of node a (row) begins below the diagonal block of node b
-                          (column), in rows; -1: above */
 } shell_element;
 
 enum { VES_SHELL_NODES = (VES_SHELL_ORDER + 1) * (VES_SHELL_ORDER + 1) };
@@ -29,17 +26,32 @@ typedef struct shell_pivot {
     double axis[3][3]; /* of each rotation that is free */
 } shell_pivot;
 
+/* What follows from the directions in which nodes are held: one for the loads, more for modes of buckling that are less
+ * symmetric than they. */
+typedef struct shell_layout {
+    const unsigned *held; /* [nodes], or NULL: the nodes' own */
+    shell_freedom *freedom;
+    shell_pivot *pivot;
+    int freedoms;
+    int **
+        place; /* [elements][nodes][nodes]: where the block of node a (row) begins below the diagonal block of
+                    node b (column), in rows; -1: above */
+    cholmod_sparse *matrix;
+    cholmod_factor *factor;
+} shell_layout;
+
+typedef struct shell_buckling shell_buckling;
+
 struct ves_shell {
     const ves_shell_model *model;
     const ves_shell_input *input;
     ves_shell_kind *kind; /* [sheets] */
-    shell_freedom *freedom;
-    shell_pivot *pivot;
+    shell_layout *layout; /* [layouts] the first: of the loads */
+    int layouts;
     int *lead_sheet, *lead; /* [nodes] the first sheet and s that are welded there */
     int elements;
     shell_element *element;
-    int freedoms, widest; /* columns of an element, most */
-    int *below;           /* [nodes] rows below the diagonal block in a column of the node */
+    int widest; /* columns of an element, most */
     ves_shell_scratch scratch;
     double (*X)[3], (*V)[3], (*U)[3], (*A)[3]; /* [nodes of an element] */
     ves_shell_column *column;
@@ -51,25 +63,32 @@ struct ves_shell {
     ves_status held;
     int stressed; /* the case that they are of, -1: none */
     cholmod_common common;
-    cholmod_sparse *matrix;
-    cholmod_factor *factor;
+    shell_buckling *buckling; /* NULL: not wanted */
     cholmod_dense *force, *solution, *Y, *E;
 };
 
-/* topology.c: numbers freedoms, lists elements, lays out the matrix */
+/* topology.c: lists elements and layouts, numbers freedoms, lays out the matrices */
 ves_status ves_shell_number(ves_shell *shell, ves_arena *arena);
-ves_status ves_shell_layout(ves_shell *shell, ves_arena *arena);
+ves_status ves_shell_layout(ves_shell *shell, shell_layout *layout, ves_arena *arena);
 
 /* gather.c: the element at hand: X, V; then columns, and which freedoms they are. */
 ves_shell_body ves_shell_gather(ves_shell *shell, const shell_element *element);
-int ves_shell_columns_of(ves_shell *shell, const shell_element *element);
+int ves_shell_columns_of(ves_shell *shell, const shell_layout *layout, const shell_element *element);
 /* Axes of all nodes for a candidate. */
-void ves_shell_pivots(ves_shell *shell);
+void ves_shell_pivots(const ves_shell *shell, shell_layout *layout);
 /* U and A of the nodes of an element, of column `which` of a block of vectors [freedoms]. */
-void ves_shell_field(ves_shell *shell, const shell_element *element, const double *vector);
+void ves_shell_field(ves_shell *shell, const shell_layout *layout, const shell_element *element,
+                     const double *vector);
 
 /* How many directions of its tangent plane a smooth node is held about, at the input at hand. */
-int ves_shell_rank(const ves_shell *shell, int node);
+int ves_shell_rank(const ves_shell *shell, const shell_layout *layout, int node);
+unsigned ves_shell_mask(const ves_shell *shell, const shell_layout *layout, int node);
+bool ves_shell_is_far(const ves_shell *shell, int sheet, int s);
+
+/* buckling.c; stale: there is another solution. */
+ves_status ves_shell_buckling_make(ves_shell *shell, ves_arena *arena);
+void ves_shell_buckling_free(ves_shell *shell);
+void ves_shell_buckling_stale(ves_shell *shell);
 
 /* rigid.c: VES_LOOSE: some part of it may move as a rigid body. Of the matrix at hand. */
 ves_status ves_shell_held(ves_shell *shell);
@@ -78,7 +97,17 @@ ves_status ves_shell_held(ves_shell *shell);
 ves_status ves_shell_stresses_make(ves_shell *shell, ves_arena *arena);
 
 /* assemble.c, load.c. springs: of the element at hand, into K. */
-ves_status ves_shell_assemble(ves_shell *shell);
+ves_status ves_shell_assemble(ves_shell *shell, const shell_layout *layout);
+/* The matrix of a layout, or (parts) what it is made of when the far side of a sector moves as the near one times
+ * exp(i a): [0] + cos a [1] + i sin a [2]. Planes of values in the pattern of layout->matrix; [1] NULL: a = 0. */
+typedef struct shell_parts {
+    double *x[3];
+} shell_parts;
+void ves_shell_parts_clear(const shell_layout *layout, const shell_parts *parts);
+/* The matrix shell->K of the element at hand; springs and drilling of nodes. */
+void ves_shell_element_add(const ves_shell *shell, const shell_layout *layout, const shell_element *element,
+                           int columns, const shell_parts *to);
+void ves_shell_nodes_add(const ves_shell *shell, const shell_layout *layout, const shell_parts *to);
 void ves_shell_loads(ves_shell *shell);
 void ves_shell_springs(ves_shell *shell, const shell_element *element, const ves_shell_body *body,
                        int columns);

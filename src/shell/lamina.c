@@ -101,3 +101,26 @@ bool ves_lamina_factor(const ves_shell_frame *f, const ves_shell_material *m, do
     }
     return cholesky(G, F);
 }
+
+bool ves_lamina_forces(const ves_shell_frame *f, const ves_shell_material *m, double weight,
+                       const double e[VES_GENERAL], double force[VES_GENERAL])
+{
+    memset(force, 0, VES_GENERAL * sizeof *force);
+    for (int s = -1; s < 2; s += 2) {
+        ves_lamina lamina;
+        double local[VES_STRESSES] = {0}, stress[VES_STRESSES];
+        if (!ves_lamina_at(f, s * VES_LEVEL, &lamina)) return false;
+        for (int i = 0; i < VES_STRESSES; i++)
+            for (int j = 0; j < VES_STRESSES; j++)
+                local[i] += lamina.T[i][j] * (j < 3 ? e[j] + s * e[3 + j] : e[3 + j]);
+        ves_lamina_stress(m, local, stress);
+        for (int j = 0; j < VES_STRESSES; j++) {
+            double sum = 0;
+            for (int i = 0; i < VES_STRESSES; i++) sum += lamina.T[i][j] * stress[i];
+            sum *= weight * lamina.volume;
+            force[j < 3 ? j : j + 3] += sum;
+            if (j < 3) force[j + 3] += s * sum;
+        }
+    }
+    return true;
+}

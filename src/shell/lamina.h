@@ -26,4 +26,8 @@ void ves_lamina_stress(const ves_shell_material *material, const double strain[V
 bool ves_lamina_factor(const ves_shell_frame *frame, const ves_shell_material *material, double weight,
                        double F[VES_GENERAL][VES_GENERAL]);
 
+/* The same as forces: weight times G strain, what does work on the eight strains. */
+bool ves_lamina_forces(const ves_shell_frame *frame, const ves_shell_material *material, double weight,
+                       const double strain[VES_GENERAL], double force[VES_GENERAL]);
+
 #endif

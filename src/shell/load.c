@@ -137,7 +137,7 @@ static void points_add(ves_shell *shell)
     const ves_shell_input *in = shell->input;
     for (int k = 0; k < in->points; k++) {
         const ves_shell_point *p = &in->point[k];
-        const shell_freedom *f = &shell->freedom[p->node];
+        const shell_freedom *f = &shell->layout[0].freedom[p->node];
         double *b = (double *)shell->force->x + (size_t)p->which * shell->force->d;
         for (int i = 0; i < 3; i++)
             if (f->moves[i] >= 0)
@@ -151,7 +151,7 @@ void ves_shell_loads(ves_shell *shell)
     for (int i = 0; i < shell->elements; i++) {
         const shell_element *e = &shell->element[i];
         ves_shell_body body = ves_shell_gather(shell, e);
-        int columns = ves_shell_columns_of(shell, e);
+        int columns = ves_shell_columns_of(shell, &shell->layout[0], e);
         for (int which = 0; which < shell->model->cases; which++) {
             memset(shell->U, 0, sizeof *shell->U * (size_t)body.kind->nodes);
             surface_add(shell, e, &body, which, shell->U);

@@ -22,10 +22,10 @@ typedef struct motions {
 static ves_status motions_take(const ves_shell *shell, ves_arena *arena, motions *m)
 {
     m->part = ves_arena_take(arena, (size_t)shell->model->nodes, sizeof *m->part);
-    m->product = ves_arena_doubles(arena, (size_t)shell->freedoms);
+    m->product = ves_arena_doubles(arena, (size_t)shell->layout[0].freedoms);
     if (!m->part || !m->product) return VES_MEMORY;
     for (int k = 0; k < MOTIONS; k++) {
-        m->vector[k] = ves_arena_doubles(arena, (size_t)shell->freedoms);
+        m->vector[k] = ves_arena_doubles(arena, (size_t)shell->layout[0].freedoms);
         if (!m->vector[k]) return VES_MEMORY;
     }
     return VES_OK;
@@ -60,10 +60,10 @@ static void motion_fill(const ves_shell *shell, const int *part, int which, cons
                         double *out)
 {
     double way[3] = {0}, about[3] = {0};
-    memset(out, 0, sizeof *out * (size_t)shell->freedoms);
+    memset(out, 0, sizeof *out * (size_t)shell->layout[0].freedoms);
     (k < 3 ? way : about)[k % 3] = 1;
     for (int node = 0; node < shell->model->nodes; node++) {
-        const shell_freedom *f = &shell->freedom[node];
+        const shell_freedom *f = &shell->layout[0].freedom[node];
         double X[3], U[3];
         if (part[node] != which) continue;
         node_at(shell, node, X);
@@ -72,7 +72,8 @@ static void motion_fill(const ves_shell *shell, const int *part, int which, cons
         for (int c = 0; c < 3; c++) U[c] += way[c];
         for (int i = 0; i < 3; i++) {
             if (f->moves[i] >= 0) out[f->first + f->moves[i]] = ves_dot(shell->model->node[node].frame[i], U);
-            if (f->turns[i] >= 0) out[f->first + f->turns[i]] = ves_dot(shell->pivot[node].axis[i], about);
+            if (f->turns[i] >= 0)
+                out[f->first + f->turns[i]] = ves_dot(shell->layout[0].pivot[node].axis[i], about);
         }
     }
 }
@@ -80,10 +81,10 @@ static void motion_fill(const ves_shell *shell, const int *part, int which, cons
 /* K b, of the lower triangle. */
 static void product(const ves_shell *shell, const double *b, double *out)
 {
-    const int *p = shell->matrix->p, *row = shell->matrix->i;
-    const double *x = shell->matrix->x;
-    memset(out, 0, sizeof *out * (size_t)shell->freedoms);
-    for (int j = 0; j < shell->freedoms; j++) {
+    const int *p = shell->layout[0].matrix->p, *row = shell->layout[0].matrix->i;
+    const double *x = shell->layout[0].matrix->x;
+    memset(out, 0, sizeof *out * (size_t)shell->layout[0].freedoms);
+    for (int j = 0; j < shell->layout[0].freedoms; j++) {
         out[j] += x[p[j]] * b[j];
         for (int k = p[j] + 1; k < p[j + 1]; k++) out[j] += x[k] * b[row[k]], out[row[k]] += x[k] * b[j];
     }
@@ -92,13 +93,13 @@ static void product(const ves_shell *shell, const double *b, double *out)
 /* K and D = diag(K) in terms of the motions. */
 static void project(const ves_shell *shell, const motions *m, double *K, double *D)
 {
-    const int *p = shell->matrix->p;
-    const double *x = shell->matrix->x;
+    const int *p = shell->layout[0].matrix->p;
+    const double *x = shell->layout[0].matrix->x;
     for (int j = 0; j < MOTIONS; j++) {
         product(shell, m->vector[j], m->product);
         for (int i = 0; i < MOTIONS; i++) {
             double k = 0, d = 0;
-            for (int f = 0; f < shell->freedoms; f++) {
+            for (int f = 0; f < shell->layout[0].freedoms; f++) {
                 k += m->vector[i][f] * m->product[f];
                 d += m->vector[i][f] * x[p[f]] * m->vector[j][f];
             }

@@ -46,16 +46,20 @@ static ves_status scratch_make(ves_shell *shell, ves_arena *arena)
 static ves_status factor_make(ves_shell *shell)
 {
     cholmod_common *c = &shell->common;
-    size_t n = (size_t)shell->freedoms, cases = (size_t)shell->model->cases;
+    size_t n = (size_t)shell->layout[0].freedoms, cases = (size_t)shell->model->cases;
     c->nmethods = 1;
     c->method[0].ordering = CHOLMOD_AMD;
     c->postorder = true;
     c->print = 0;
     c->try_catch = true;
     c->quick_return_if_not_posdef = true;
-    shell->factor = cholmod_analyze(shell->matrix, c);
+    for (int k = 0; k < shell->layouts; k++) {
+        shell_layout *layout = &shell->layout[k];
+        layout->factor = cholmod_analyze(layout->matrix, c);
+        if (!layout->factor) return VES_MEMORY;
+    }
     shell->force = cholmod_zeros(n, cases, CHOLMOD_REAL, c);
-    return shell->factor && shell->force ? VES_OK : VES_MEMORY;
+    return shell->force ? VES_OK : VES_MEMORY;
 }
 
 static ves_status build(ves_shell *shell, ves_arena *arena)
@@ -63,8 +67,9 @@ static ves_status build(ves_shell *shell, ves_arena *arena)
     VES_TRY(kinds_make(shell, arena));
     VES_TRY(ves_shell_number(shell, arena));
     VES_TRY(scratch_make(shell, arena));
-    VES_TRY(ves_shell_layout(shell, arena));
+    for (int k = 0; k < shell->layouts; k++) VES_TRY(ves_shell_layout(shell, &shell->layout[k], arena));
     VES_TRY(factor_make(shell));
+    if (shell->model->buckling) VES_TRY(ves_shell_buckling_make(shell, arena));
     return ves_shell_stresses_make(shell, arena);
 }
 
@@ -89,8 +94,11 @@ void ves_shell_destroy(ves_shell *shell)
 {
     if (!shell) return;
     cholmod_common *c = &shell->common;
-    cholmod_free_sparse(&shell->matrix, c);
-    cholmod_free_factor(&shell->factor, c);
+    ves_shell_buckling_free(shell);
+    for (int k = 0; shell->layout && k < shell->layouts; k++) {
+        cholmod_free_sparse(&shell->layout[k].matrix, c);
+        cholmod_free_factor(&shell->layout[k].factor, c);
+    }
     cholmod_free_dense(&shell->force, c);
     cholmod_free_dense(&shell->solution, c);
     cholmod_free_dense(&shell->Y, c);
@@ -100,23 +108,25 @@ void ves_shell_destroy(ves_shell *shell)
 
 int ves_shell_freedoms(const ves_shell *shell)
 {
-    return shell->freedoms;
+    return shell->layout[0].freedoms;
 }
 
 ves_status ves_shell_solve(ves_shell *shell, const ves_shell_input *input)
 {
     cholmod_common *c = &shell->common;
+    shell_layout *layout = &shell->layout[0];
     shell->input = input;
     shell->stressed = -1;
+    ves_shell_buckling_stale(shell);
     omp_set_max_active_levels(0); /* CHOLMOD would start four threads for each of ours */
-    ves_shell_pivots(shell);
-    VES_TRY(ves_shell_assemble(shell));
+    for (int k = 0; k < shell->layouts; k++) ves_shell_pivots(shell, &shell->layout[k]);
+    VES_TRY(ves_shell_assemble(shell, layout));
     if (!shell->asked) shell->held = ves_shell_held(shell), shell->asked = true;
     VES_TRY(shell->held);
     ves_shell_loads(shell);
-    if (!cholmod_factorize(shell->matrix, shell->factor, c) && c->status < 0) return VES_MEMORY;
+    if (!cholmod_factorize(layout->matrix, layout->factor, c) && c->status < 0) return VES_MEMORY;
     if (c->status == CHOLMOD_NOT_POSDEF) return VES_LOOSE;
-    if (!cholmod_solve2(CHOLMOD_A, shell->factor, shell->force, NULL, &shell->solution, NULL, &shell->Y,
+    if (!cholmod_solve2(CHOLMOD_A, layout->factor, shell->force, NULL, &shell->solution, NULL, &shell->Y,
                         &shell->E, c))
         return VES_MEMORY;
     return VES_OK;
@@ -132,7 +142,7 @@ double ves_shell_work(const ves_shell *shell, int which)
     const double *u = solution_of(shell, which),
                  *f = (const double *)shell->force->x + (size_t)which * shell->force->d;
     double sum = 0;
-    for (int k = 0; k < shell->freedoms; k++) sum += u[k] * f[k];
+    for (int k = 0; k < shell->layout[0].freedoms; k++) sum += u[k] * f[k];
     return sum;
 }
 
@@ -143,11 +153,12 @@ void ves_shell_displacement(const ves_shell *shell, int which, int sheet, int s,
     const double *u = solution_of(shell, which);
     double turn[3] = {0}, move[3] = {0}, n[3];
     int node = m->weld[sheet][s];
-    const shell_freedom *f = &shell->freedom[node];
+    const shell_freedom *f = &shell->layout[0].freedom[node];
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 3; c++) {
             if (f->moves[i] >= 0) move[c] += u[f->first + f->moves[i]] * m->node[node].frame[i][c];
-            if (f->turns[i] >= 0) turn[c] += u[f->first + f->turns[i]] * shell->pivot[node].axis[i][c];
+            if (f->turns[i] >= 0)
+                turn[c] += u[f->first + f->turns[i]] * shell->layout[0].pivot[node].axis[i][c];
         }
     bool far = m->far && m->far[sheet] && m->far[sheet][s];
     for (int r = 0; r < 3; r++) U[r] = far ? ves_dot(m->turn[r], move) : move[r];

@@ -70,7 +70,7 @@ const ves_shell_stresses *ves_shell_stress(ves_shell *shell, int which)
     for (int i = 0, at = 0; i < shell->elements; i++) {
         const shell_element *e = &shell->element[i];
         ves_shell_body body = ves_shell_gather(shell, e);
-        ves_shell_field(shell, e, u);
+        ves_shell_field(shell, &shell->layout[0], e, u);
         ves_shell_strains(&body, &body.kind->lattice, (const double(*)[3])shell->U,
                           (const double(*)[3])shell->A, &shell->scratch, shell->strain);
         for (int q = 0; q < body.kind->lattice.points; q++, at++) {

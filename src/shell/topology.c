@@ -61,8 +61,7 @@ static ves_status elements_make(ves_shell *shell, ves_arena *arena)
             for (int i = 0; i < s->elements[0]; i++, e++) {
                 *e = (shell_element){.sheet = k, .u = i, .v = j};
                 e->s = ves_arena_take(arena, (size_t)nodes, sizeof *e->s);
-                e->place = ves_arena_take(arena, (size_t)(nodes * nodes), sizeof *e->place);
-                if (!e->s || !e->place) return VES_MEMORY;
+                if (!e->s) return VES_MEMORY;
                 for (int n = 0; n < nodes; n++)
                     e->s[n] = (j * s->order[1] + n / (p + 1)) % columns * rows + i * p + n % (p + 1);
             }
@@ -88,42 +87,56 @@ static void lead_find(ves_shell *shell)
         }
 }
 
-static void freedom_make(ves_shell *shell, int node)
+static void freedom_make(const ves_shell *shell, shell_layout *layout, int node)
 {
     const ves_shell_node *d = &shell->model->node[node];
-    shell_freedom *f = &shell->freedom[node];
-    int rank = d->fold ? 0 : ves_shell_rank(shell, node), at = 0;
-    *f = (shell_freedom){.first = shell->freedoms, .rank = rank};
-    for (int k = 0; k < 3; k++) f->moves[k] = d->held >> k & 1 ? -1 : at++;
+    shell_freedom *f = &layout->freedom[node];
+    unsigned held = ves_shell_mask(shell, layout, node);
+    int rank = d->fold ? 0 : ves_shell_rank(shell, layout, node), at = 0;
+    *f = (shell_freedom){.first = layout->freedoms};
+    for (int k = 0; k < 3; k++) f->moves[k] = held >> k & 1 ? -1 : at++;
     for (int k = 0; k < 3; k++) {
-        bool held = d->fold ? d->held >> (3 + k) & 1 : k < rank || k == 2;
-        f->turns[k] = held ? -1 : at++;
+        bool fixed = d->fold ? held >> (3 + k) & 1 : k < rank || k == 2;
+        f->turns[k] = fixed ? -1 : at++;
     }
     f->count = at;
-    shell->freedoms += at;
+    layout->freedoms += at;
+}
+
+static ves_status layout_number(ves_shell *shell, int index, ves_arena *arena)
+{
+    const ves_shell_model *m = shell->model;
+    shell_layout *layout = &shell->layout[index];
+    size_t nodes = (size_t)m->nodes;
+    layout->held = index ? m->held[index - 1] : NULL;
+    layout->freedom = ves_arena_take(arena, nodes, sizeof *layout->freedom);
+    layout->pivot = ves_arena_take(arena, nodes, sizeof *layout->pivot);
+    layout->place = ves_arena_take(arena, (size_t)shell->elements, sizeof *layout->place);
+    if (!layout->freedom || !layout->pivot || !layout->place) return VES_MEMORY;
+    for (int k = 0; k < m->nodes; k++) freedom_make(shell, layout, k);
+    for (int k = 0; k < shell->elements; k++) {
+        const shell_element *e = &shell->element[k];
+        int columns = 0, count = shell->kind[e->sheet].nodes;
+        for (int n = 0; n < count; n++) columns += layout->freedom[m->weld[e->sheet][e->s[n]]].count;
+        if (columns > shell->widest) shell->widest = columns;
+        layout->place[k] = ves_arena_take(arena, (size_t)(count * count), sizeof **layout->place);
+        if (!layout->place[k]) return VES_MEMORY;
+    }
+    return VES_OK;
 }
 
 ves_status ves_shell_number(ves_shell *shell, ves_arena *arena)
 {
     const ves_shell_model *m = shell->model;
     size_t nodes = (size_t)m->nodes;
-    shell->freedom = ves_arena_take(arena, nodes, sizeof *shell->freedom);
-    shell->pivot = ves_arena_take(arena, nodes, sizeof *shell->pivot);
     shell->lead = ves_arena_take(arena, nodes, sizeof *shell->lead);
     shell->lead_sheet = ves_arena_take(arena, nodes, sizeof *shell->lead_sheet);
-    shell->below = ves_arena_take(arena, nodes, sizeof *shell->below);
-    if (!shell->freedom || !shell->pivot || !shell->lead || !shell->lead_sheet || !shell->below)
-        return VES_MEMORY;
+    shell->layouts = 1 + (m->buckling ? m->classes : 0);
+    shell->layout = ves_arena_take(arena, (size_t)shell->layouts, sizeof *shell->layout);
+    if (!shell->lead || !shell->lead_sheet || !shell->layout) return VES_MEMORY;
     lead_find(shell);
-    for (int k = 0; k < m->nodes; k++) freedom_make(shell, k);
     VES_TRY(elements_make(shell, arena));
-    for (int k = 0; k < shell->elements; k++) {
-        const shell_element *e = &shell->element[k];
-        int columns = 0;
-        for (int n = 0; n < shell->kind[e->sheet].nodes; n++)
-            columns += shell->freedom[m->weld[e->sheet][e->s[n]]].count;
-        if (columns > shell->widest) shell->widest = columns;
-    }
+    for (int k = 0; k < shell->layouts; k++) VES_TRY(layout_number(shell, k, arena));
     return VES_OK;
 }
 
@@ -185,62 +198,64 @@ static int neighbours(const ves_shell *shell, int node, touch *t)
 }
 
 /* Where, in the columns of a node, the rows of its neighbours begin: told to the elements that have both. */
-static void places_tell(ves_shell *shell, int node, const touch *t)
+static void places_tell(const ves_shell *shell, shell_layout *layout, int node, const touch *t)
 {
     for (int i = t->from[node]; i < t->from[node + 1]; i++) {
-        shell_element *e = &shell->element[t->element[i]];
+        const shell_element *e = &shell->element[t->element[i]];
+        int *place = layout->place[t->element[i]];
         int nodes = shell->kind[e->sheet].nodes;
         for (int b = 0; b < nodes; b++) {
             if (node_of(shell, e, b) != node) continue;
             for (int a = 0; a < nodes; a++) {
                 int other = node_of(shell, e, a);
-                e->place[a * nodes + b] = other < node ? -1 : other == node ? 0 : t->offset[other];
+                place[a * nodes + b] = other < node ? -1 : other == node ? 0 : t->offset[other];
             }
         }
     }
 }
 
-static void column_write(const ves_shell *shell, int node, const touch *t, int near, int *p, int *row)
+static void column_write(const shell_layout *layout, int node, const touch *t, int near, int *p, int *row)
 {
-    const shell_freedom *f = &shell->freedom[node];
+    const shell_freedom *f = &layout->freedom[node];
     for (int c = 0; c < f->count; c++) {
         int at = p[f->first + c];
         for (int r = c; r < f->count; r++) row[at++] = f->first + r;
         for (int k = 0; k < near; k++) {
-            const shell_freedom *other = &shell->freedom[t->near[k]];
+            const shell_freedom *other = &layout->freedom[t->near[k]];
             for (int r = 0; r < other->count; r++) row[at++] = other->first + r;
         }
     }
 }
 
 /* Twice over the nodes: to count, then to write. */
-static void pattern(ves_shell *shell, touch *t, int *p, int *row)
+static void pattern(const ves_shell *shell, shell_layout *layout, touch *t, int *p, int *row)
 {
     int at = 0;
     memset(t->seen, 0, sizeof *t->seen * (size_t)shell->model->nodes);
     for (int node = 0; node < shell->model->nodes; node++) {
-        const shell_freedom *f = &shell->freedom[node];
+        const shell_freedom *f = &layout->freedom[node];
         int near = neighbours(shell, node, t), rows = 0;
-        for (int k = 0; k < near; k++) t->offset[t->near[k]] = rows, rows += shell->freedom[t->near[k]].count;
-        shell->below[node] = rows;
-        if (row) places_tell(shell, node, t);
+        for (int k = 0; k < near; k++)
+            t->offset[t->near[k]] = rows, rows += layout->freedom[t->near[k]].count;
+        if (row) places_tell(shell, layout, node, t);
         for (int c = 0; !row && c < f->count; c++) p[f->first + c] = at, at += f->count - c + rows;
-        if (row) column_write(shell, node, t, near, p, row);
+        if (row) column_write(layout, node, t, near, p, row);
     }
-    if (!row) p[shell->freedoms] = at;
+    if (!row) p[layout->freedoms] = at;
 }
 
-ves_status ves_shell_layout(ves_shell *shell, ves_arena *arena)
+ves_status ves_shell_layout(ves_shell *shell, shell_layout *layout, ves_arena *arena)
 {
     touch t;
-    size_t n = (size_t)shell->freedoms;
+    size_t n = (size_t)layout->freedoms;
     VES_TRY(touch_make(shell, arena, &t));
     int *p = ves_arena_take(arena, n + 1, sizeof *p);
     if (!p) return VES_MEMORY;
-    pattern(shell, &t, p, NULL);
-    shell->matrix = cholmod_allocate_sparse(n, n, (size_t)p[n], true, true, -1, CHOLMOD_REAL, &shell->common);
-    if (!shell->matrix) return VES_MEMORY;
-    memcpy(shell->matrix->p, p, (n + 1) * sizeof *p);
-    pattern(shell, &t, p, shell->matrix->i);
+    pattern(shell, layout, &t, p, NULL);
+    layout->matrix =
+        cholmod_allocate_sparse(n, n, (size_t)p[n], true, true, -1, CHOLMOD_REAL, &shell->common);
+    if (!layout->matrix) return VES_MEMORY;
+    memcpy(layout->matrix->p, p, (n + 1) * sizeof *p);
+    pattern(shell, layout, &t, p, layout->matrix->i);
     return VES_OK;
 }

@@ -18,7 +18,7 @@ typedef struct ves_shell_view {
     double copies;              /* how many of the sector make the whole: of energies */
     double share[3][3];         /* a force of the sector adds copies * share * force to that of the whole */
     const ves_shell_spot *spot; /* [places that the file names] */
-    int density; /* number block index, or -1 */
+    int density;                /* number block index, or -1 */
     const struct ves_formula *const *thickness; /* [patches] NULL: no part of the shell */
     /* [sheets] what formulas of u and v mean (ves_samples) */
     const double (*u_range)[2], (*v_range)[2];
