@@ -169,6 +169,7 @@ typedef struct ves_measure {
     double most;         /* no surface has more: a constraint that asks for it is refused. 0: not known */
     const char *most_of; /* what has it: "a sphere" */
     bool shell;          /* is of the shell: the reader refuses it in a file without `shell` */
+    bool buckles;        /* with it: its buckling is asked for, which needs more of its symmetry than its stresses */
 } ves_measure;
 
 /* Members are only ever appended, to this struct and to those above, and the enums only grow; the sizes tell

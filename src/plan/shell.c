@@ -33,6 +33,13 @@ static bool wanted(const ves_plan *plan, bool light)
     return false;
 }
 
+static bool buckles(const ves_plan *plan)
+{
+    for (int m = 0; m < plan->problem->measures; m++)
+        if (plan->problem->measure[m].measure->buckles && plan->runs[PROGRAM_ALL][m]) return true;
+    return false;
+}
+
 ves_status ves_shell_begin(ves_plan *plan, int index, ves_diag *diag)
 {
     plan_level *l = &plan->level[index];
@@ -42,6 +49,7 @@ ves_status ves_shell_begin(ves_plan *plan, int index, ves_diag *diag)
     l->shell = shell;
     shell->def = plan->problem->shell, shell->level = index;
     shell->solid = wanted(plan, false);
+    shell->buckles = buckles(plan);
     if (!shell->solid) return VES_OK;
     if (index > 0)
         shell->sector = plan->level[0].shell->sector;
@@ -107,6 +115,8 @@ static void model_fill(plan_shell *shell)
     m->far = shell->sector.whole || shell->sector.mirrored ? NULL : shell->far;
     memcpy(m->turn, shell->sector.turn, sizeof m->turn);
     m->cases = shell->def->cases;
+    m->buckling = shell->buckles;
+    m->held = shell->held;
     ves_shell_input *in = &shell->input;
     in->X = (const double *const(*)[3])shell->X, in->normal = (const double *const(*)[3])shell->normal;
     in->thickness = shell->thickness, in->side = shell->side;

@@ -35,6 +35,7 @@ typedef struct plan_shell_part {
 struct plan_shell {
     const ves_shell_def *def;
     int level;
+    bool buckles; /* some measure asks for its buckling */
     bool solid; /* some measure asks for its solution; else there is only what the light ones read */
     plan_sector sector;
     int waves;             /* around */
@@ -51,6 +52,7 @@ struct plan_shell {
     const double *(*X)[3], *(*normal)[3], **thickness;
     double *side, (*u_range)[2], (*v_range)[2];
     const ves_formula **formula; /* [patches] of thickness */
+    const unsigned **held; /* [classes] of buckling */
     const int **weld;
     const bool **far;
     ves_shell *shell;

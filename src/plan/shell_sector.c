@@ -284,6 +284,8 @@ static void sector_fill(seeker *k, const finding *f, plan_sector *s)
     bool plane = f->mirror[n][0] || f->mirror[n][1];
     s->ring = f->ring;
     if (!s->ring && n == 1 && !plane) return;
+    /* Modes of buckling that go round are in no half of a sector, but where there are no more than two. */
+    if (k->shell->buckles && n > 2) plane = false;
     s->whole = false, s->mirrored = !s->ring && plane, s->folds = s->ring ? (int)(VES_TWO_PI / STRIP) : n;
     s->from = s->mirrored ? mirror_at(n, !f->mirror[n][0]) : 0;
     s->to = s->from + (s->ring ? STRIP : s->mirrored ? VES_PI / n : VES_TWO_PI / n);

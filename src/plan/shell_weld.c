@@ -281,14 +281,69 @@ static void support_spread(ves_plan *plan, const plan_shell *shell, const ves_su
         }
 }
 
-/* The planes that a mirrored sector ends on; first, so that frames begin with their normals. */
-static void sector_hold(const plan_shell *shell, hold *h)
+/* In a plane of antisymmetry nothing moves along it, nor turns about its normal. */
+static void antisymmetry_add(hold *h, const double normal[3])
+{
+    across_add(h->move, &h->moves, normal);
+    direction_add(h->turn, &h->turns, normal);
+}
+
+/* The planes that a mirrored sector ends on; first, so that frames begin with their normals. odd: bit 0, 1: what happens is
+ * antisymmetric about the first, the second; of half a shell both are one. */
+static void sector_hold(const plan_shell *shell, unsigned odd, hold *h)
 {
     for (int k = 0; k < shell->def->parts && shell->sector.mirrored; k++)
         for (int end = 0; end < 2; end++)
-            for (int i = 0; i < ves_shell_edge_count(&shell->sheet[k], 2 + end); i++)
-                mirror_add(&h[shell->part[k].weld[ves_shell_edge_node(&shell->sheet[k], 2 + end, i)]],
-                           shell->sector.mirror[end]);
+            for (int i = 0; i < ves_shell_edge_count(&shell->sheet[k], 2 + end); i++) {
+                int node = shell->part[k].weld[ves_shell_edge_node(&shell->sheet[k], 2 + end, i)];
+                if (odd >> end & 1)
+                    antisymmetry_add(&h[node], shell->sector.mirror[end]);
+                else
+                    mirror_add(&h[node], shell->sector.mirror[end]);
+            }
+}
+
+static ves_status refuse(const plan_shell *shell, ves_diag *diag)
+{
+    return ves_diag_add(diag, VES_ERROR, VES_RANGE, shell->def->support[0].mark,
+                        "supports of the shell that meet at one place hold it along or about axes that are askew to each "
+                        "other: fix: all there, or mirror planes at right angles");
+}
+
+/* What is held, in the frame that there is. False: an axis of it partly. */
+static bool mask_make(hold *h, const ves_shell_node *node, unsigned *held)
+{
+    *held = 0;
+    for (int k = 0; k < 3; k++) {
+        double moves = within(h->move, h->moves, node->frame[k]), turns = within(h->turn, h->turns, node->frame[k]);
+        if (moves > 1e-6 && moves < 1 - 1e-6) return false;
+        if (turns > 1e-6 && turns < 1 - 1e-6) return false;
+        if (moves > 0.5) *held |= 1u << k;
+        if (turns > 0.5) *held |= 8u << k;
+    }
+    return true;
+}
+
+/* The classes of modes that are antisymmetric about a plane that the sector ends on. */
+static ves_status classes_hold(ves_plan *plan, plan_shell *shell, hold *h, ves_diag *diag)
+{
+    static const unsigned BOTH[] = {3}, EACH[] = {1, 2, 3};
+    const unsigned *odd = shell->sector.folds == 1 ? BOTH : EACH;
+    int classes = shell->buckles && shell->sector.mirrored ? shell->sector.folds == 1 ? 1 : 3 : 0;
+    shell->held = ves_arena_take(&plan->arena, (size_t)classes, sizeof *shell->held);
+    if (!shell->held) return VES_MEMORY;
+    for (int c = 0; c < classes; c++) {
+        unsigned *held = ves_arena_take(&plan->arena, (size_t)shell->nodes, sizeof *held);
+        if (!held) return VES_MEMORY;
+        memset(h, 0, sizeof *h * (size_t)shell->nodes);
+        sector_hold(shell, odd[c], h);
+        for (int k = 0; k < shell->def->supports; k++) support_spread(plan, shell, &shell->def->support[k], h);
+        for (int k = 0; k < shell->nodes; k++)
+            if (!mask_make(&h[k], &shell->node[k], &held[k])) return refuse(shell, diag);
+        shell->held[c] = held;
+    }
+    shell->model.classes = classes;
+    return VES_OK;
 }
 
 ves_status ves_shell_hold(ves_plan *plan, plan_shell *shell, ves_diag *diag)
@@ -296,13 +351,9 @@ ves_status ves_shell_hold(ves_plan *plan, plan_shell *shell, ves_diag *diag)
     const ves_shell_def *def = shell->def;
     hold *h = ves_arena_take(&plan->arena, (size_t)shell->nodes, sizeof *h);
     if (!h) return VES_MEMORY;
-    sector_hold(shell, h);
+    sector_hold(shell, 0, h);
     for (int k = 0; k < def->supports; k++) support_spread(plan, shell, &def->support[k], h);
     for (int k = 0; k < shell->nodes; k++)
-        if (!frame_make(&h[k], &shell->node[k]))
-            return ves_diag_add(
-                diag, VES_ERROR, VES_RANGE, def->support[0].mark,
-                "supports of the shell that meet at one place hold it about axes that are askew to each "
-                "other: fix: all there, or mirror planes at right angles");
-    return VES_OK;
+        if (!frame_make(&h[k], &shell->node[k])) return refuse(shell, diag);
+    return classes_hold(plan, shell, h, diag);
 }
