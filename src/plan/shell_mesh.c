@@ -31,6 +31,33 @@ static int waves_of(const double *X, int from, int count)
     return most > 2 ? most - 1 : most;
 }
 
+/* Waves of buckling around: those of a cylinder end at (12 (1 - nu^2))^(1/4) sqrt(R / t), and want six nodes each. */
+static int waves_of_buckling(ves_plan *plan, const plan_shell *shell, int part, const double *X,
+                             const double *u, const double *v, int count)
+{
+    const ves_patch_def *d = &plan->problem->patch[shell->def->part[part].patch];
+    double most = 0, nu = plan->block[shell->def->nu];
+    for (int row = 0; row < ROWS; row++) {
+        double mean[3] = {0};
+        for (int k = 0; k < SAMPLES; k++)
+            for (int c = 0; c < 3; c++) mean[c] += X[c * count + row * SAMPLES + k] / SAMPLES;
+        for (int k = row * SAMPLES; k < (row + 1) * SAMPLES; k++) {
+            double r[3], at[VES_SHELL_ARGUMENTS];
+            for (int c = 0; c < 3; c++) at[VES_SHELL_X + c] = X[c * count + k], r[c] = at[c] - mean[c];
+            at[VES_SHELL_U] =
+                d->kind == VES_PATCH_FORMULA ? d->u_range[0] + (d->u_range[1] - d->u_range[0]) * u[k] : u[k];
+            at[VES_SHELL_V] = d->kind == VES_PATCH_FORMULA
+                                  ? d->v_range[0] + (d->v_range[1] - d->v_range[0]) / VES_TWO_PI * v[k]
+                                  : v[k];
+            double t =
+                ves_formula_eval(shell->def->part[part].thickness, plan->block, at, plan->formula_room);
+            if (t > 0) most = fmax(most, sqrt(ves_dot(r, r)) / t);
+        }
+    }
+    double waves = pow(12 * (1 - nu * nu), 0.25) * sqrt(most) * 6 / NODES_A_WAVE;
+    return waves < WAVES_MOST ? (int)ceil(waves) : WAVES_MOST;
+}
+
 /* How many waves the shape has around, of all parts, at the designs that are looked at. */
 static ves_status waves_find(ves_plan *plan, plan_shell *shell)
 {
@@ -53,6 +80,8 @@ static ves_status waves_find(ves_plan *plan, plan_shell *shell)
                 int waves = waves_of(out, row * SAMPLES, COUNT);
                 if (waves > shell->waves) shell->waves = waves;
             }
+            int buckling = shell->buckles && d == 0 ? waves_of_buckling(plan, shell, p, out, u, v, COUNT) : 0;
+            if (buckling > shell->waves) shell->waves = buckling;
         }
     }
     return VES_OK;
@@ -60,7 +89,8 @@ static ves_status waves_find(ves_plan *plan, plan_shell *shell)
 
 /* What is chosen where the file says nothing. The annealer's elements are of order 6, graded towards both ends, where shells
  * have layers of length sqrt(R t): on a smooth surface five of them along u err five times less than MITC9's twelve, in the
- * same time. The verifier's: order 8. Along u so many elements, along v so many times eight nodes for each
+ * same time. The verifier's: order 8. Where buckling is asked for
+ * the middle matters as much as the ends. Along u so many elements, along v so many times eight nodes for each
  * wave that the shape has around. */
 typedef struct choice {
     int order, along;
@@ -70,7 +100,9 @@ typedef struct choice {
 static choice choose(const plan_shell *shell)
 {
     static const choice usual = {6, 5, 1, 2.2}, sector = {6, 6, 1.5, 1.8}, verifier = {8, 6, 1, 2.2};
+    static const choice waving = {6, 8, 1, 1.6}, waving_verifier = {8, 8, 1, 1.6};
     bool small = shell->sector.ring || shell->sector.folds >= 6;
+    if (shell->buckles) return shell->level ? waving_verifier : waving;
     return shell->level ? verifier : small ? sector : usual;
 }
 
