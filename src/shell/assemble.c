@@ -54,22 +54,25 @@ void ves_shell_element_add(const ves_shell *shell, const shell_layout *layout, c
         }
 }
 
+double ves_shell_drilling(const ves_shell *shell, int node)
+{
+    double t = shell->input->thickness[shell->lead_sheet[node]][shell->lead[node]];
+    return shell->model->node[node].fold ? DRILLING * shell->input->material.E * t * t * t : 0;
+}
+
 /* Springs at nodes, along x, y, z; a frame that is turned couples them, which is why frames of sprung nodes are not
  * (checked by who makes the model). */
 void ves_shell_nodes_add(const ves_shell *shell, const shell_layout *layout, const shell_parts *to)
 {
     const int *diagonal = layout->matrix->p;
     const ves_shell_model *m = shell->model;
-    const ves_shell_input *in = shell->input;
     for (int k = 0; k < m->nodes; k++) {
         const shell_freedom *f = &layout->freedom[k];
-        double t = in->thickness[shell->lead_sheet[k]][shell->lead[k]];
         for (int i = 0; i < 3; i++)
             if (f->moves[i] >= 0 && m->node[k].spring[i] > 0)
                 to->x[0][diagonal[f->first + f->moves[i]]] += m->node[k].spring[i];
         for (int i = 0; m->node[k].fold && i < 3; i++)
-            if (f->turns[i] >= 0)
-                to->x[0][diagonal[f->first + f->turns[i]]] += DRILLING * in->material.E * t * t * t;
+            if (f->turns[i] >= 0) to->x[0][diagonal[f->first + f->turns[i]]] += ves_shell_drilling(shell, k);
     }
 }
 

@@ -86,6 +86,25 @@ int ves_shell_rank(const ves_shell *shell, const shell_layout *layout, int node)
     return (largest > HOLDS) + (second > HOLDS);
 }
 
+/* The axes are those of G = sum of (a_k . t_i) (a_k . t_j), which stays diagonal; t_i goes along by -n (t_i . dn). */
+void ves_shell_drift(const ves_shell *shell, int node, double drift[3])
+{
+    const ves_shell_node *d = &shell->model->node[node];
+    const shell_layout *layout = &shell->layout[0];
+    const double(*t)[3] = (const double(*)[3])layout->pivot[node].axis;
+    unsigned held = ves_shell_mask(shell, layout, node);
+    double n[3], gap = 0;
+    normal_of(shell, shell->lead_sheet[node], shell->lead[node], n);
+    memset(drift, 0, 3 * sizeof *drift);
+    for (int k = 0; k < 3; k++) {
+        if (!(held >> (3 + k) & 1)) continue;
+        double a = ves_dot(d->frame[k], t[0]), b = ves_dot(d->frame[k], t[1]), up = ves_dot(d->frame[k], n);
+        gap += a * a - b * b;
+        for (int c = 0; c < 3; c++) drift[c] -= up * (b * t[0][c] + a * t[1][c]);
+    }
+    for (int c = 0; c < 3; c++) drift[c] /= gap;
+}
+
 void ves_shell_pivots(const ves_shell *shell, shell_layout *layout)
 {
     const ves_shell_model *m = shell->model;

@@ -41,6 +41,7 @@ typedef struct shell_layout {
 } shell_layout;
 
 typedef struct shell_buckling shell_buckling;
+typedef struct shell_adjoint shell_adjoint;
 
 struct ves_shell {
     const ves_shell_model *model;
@@ -64,6 +65,7 @@ struct ves_shell {
     int stressed; /* the case that they are of, -1: none */
     cholmod_common common;
     shell_buckling *buckling; /* NULL: not wanted */
+    shell_adjoint *adjoint;   /* likewise */
     cholmod_dense *force, *solution, *Y, *E;
 };
 
@@ -93,8 +95,21 @@ void ves_shell_buckling_stale(ves_shell *shell);
 /* rigid.c: VES_LOOSE: some part of it may move as a rigid body. Of the matrix at hand. */
 ves_status ves_shell_held(ves_shell *shell);
 
+/* adjoint.c */
+ves_status ves_shell_adjoint_make(ves_shell *shell, ves_arena *arena);
+void ves_shell_adjoint_free(ves_shell *shell);
+
+/* gather.c: of a smooth node held about one direction of its tangent plane: by how much the normal's change dn turns its
+ * axes within that plane, drift . dn, beside going along with the normal. */
+void ves_shell_drift(const ves_shell *shell, int node, double drift[3]);
+
 /* stress.c */
+extern const double ves_shell_across[VES_SHELL_LEVELS]; /* the shear there over its mean */
 ves_status ves_shell_stresses_make(ves_shell *shell, ves_arena *arena);
+
+/* load.c: does an element touch an edge of its sheet, and its k-th node there. */
+bool ves_shell_on_edge(const ves_shell *shell, const shell_element *element, int edge);
+int ves_shell_side_node(const ves_shell_kind *kind, int edge, int k);
 
 /* assemble.c, load.c. springs: of the element at hand, into K. */
 ves_status ves_shell_assemble(ves_shell *shell, const shell_layout *layout);
@@ -107,6 +122,7 @@ void ves_shell_parts_clear(const shell_layout *layout, const shell_parts *parts)
 /* The matrix shell->K of the element at hand; springs and drilling of nodes. */
 void ves_shell_element_add(const ves_shell *shell, const shell_layout *layout, const shell_element *element,
                            int columns, const shell_parts *to);
+double ves_shell_drilling(const ves_shell *shell, int node); /* of a fold: of each of its turns */
 void ves_shell_nodes_add(const ves_shell *shell, const shell_layout *layout, const shell_parts *to);
 void ves_shell_loads(ves_shell *shell);
 void ves_shell_springs(ves_shell *shell, const shell_element *element, const ves_shell_body *body,

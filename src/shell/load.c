@@ -50,14 +50,14 @@ static void surface_add(ves_shell *shell, const shell_element *e, const ves_shel
 }
 
 /* The nodes of an element along one of its sides that lies on an edge of the sheet: k-th. */
-static int side_node(const ves_shell_kind *kind, int edge, int k)
+int ves_shell_side_node(const ves_shell_kind *kind, int edge, int k)
 {
     int across = kind->order[0] + 1;
     if (edge < 2) return k * across + (edge ? kind->order[0] : 0);
     return (edge == 3 ? kind->order[1] * across : 0) + k;
 }
 
-static bool on_edge(const ves_shell *shell, const shell_element *e, int edge)
+bool ves_shell_on_edge(const ves_shell *shell, const shell_element *e, int edge)
 {
     const ves_shell_sheet *s = &shell->model->sheet[e->sheet];
     if (edge > 1 && s->closed) return false;
@@ -76,7 +76,8 @@ static int side_rule(const ves_shell_body *body, int edge, double *weight, doubl
         double t[3] = {0};
         ves_rule_lagrange(count, node, at[q], N[q], slope);
         for (int k = 0; k < count; k++)
-            for (int c = 0; c < 3; c++) t[c] += slope[k] * body->X[side_node(body->kind, edge, k)][c];
+            for (int c = 0; c < 3; c++)
+                t[c] += slope[k] * body->X[ves_shell_side_node(body->kind, edge, k)][c];
         weight[q] *= sqrt(ves_dot(t, t));
     }
     return count;
@@ -88,7 +89,7 @@ double ves_shell_length(ves_shell *shell, const ves_shell_input *input, int shee
     shell->input = input;
     for (int k = 0; k < shell->elements; k++) {
         const shell_element *e = &shell->element[k];
-        if (e->sheet != sheet || !on_edge(shell, e, edge)) continue;
+        if (e->sheet != sheet || !ves_shell_on_edge(shell, e, edge)) continue;
         ves_shell_body body = ves_shell_gather(shell, e);
         int count = side_rule(&body, edge, weight, N);
         for (int q = 0; q < count; q++) length += weight[q];
@@ -102,13 +103,14 @@ void ves_shell_edge_mean(ves_shell *shell, int which, int sheet, int edge, doubl
     memset(U, 0, 3 * sizeof *U);
     for (int k = 0; k < shell->elements; k++) {
         const shell_element *e = &shell->element[k];
-        if (e->sheet != sheet || !on_edge(shell, e, edge)) continue;
+        if (e->sheet != sheet || !ves_shell_on_edge(shell, e, edge)) continue;
         ves_shell_body body = ves_shell_gather(shell, e);
         int count = side_rule(&body, edge, weight, N);
         for (int i = 0; i < count; i++) {
             double share = 0, at[3];
             for (int q = 0; q < count; q++) share += weight[q] * N[q][i];
-            ves_shell_displacement(shell, which, sheet, e->s[side_node(body.kind, edge, i)], at, director);
+            ves_shell_displacement(shell, which, sheet, e->s[ves_shell_side_node(body.kind, edge, i)], at,
+                                   director);
             for (int c = 0; c < 3; c++) U[c] += share * at[c];
             length += share;
         }
@@ -121,14 +123,14 @@ static void line_add(ves_shell *shell, const shell_element *e, const ves_shell_b
 {
     const ves_shell_load *load = &shell->input->load[which * shell->model->sheets + e->sheet];
     double weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1];
-    if (!load->line[edge][0] || !on_edge(shell, e, edge)) return;
+    if (!load->line[edge][0] || !ves_shell_on_edge(shell, e, edge)) return;
     int count = side_rule(body, edge, weight, N), first = (edge < 2 ? e->v : e->u) * (count - 1);
     for (int q = 0; q < count; q++)
         for (int c = 0; c < 3; c++) {
             double density = 0;
             for (int k = 0; k < count; k++) density += N[q][k] * load->line[edge][c][first + k];
             for (int k = 0; k < count; k++)
-                force[side_node(body->kind, edge, k)][c] += weight[q] * N[q][k] * density;
+                force[ves_shell_side_node(body->kind, edge, k)][c] += weight[q] * N[q][k] * density;
         }
 }
 
@@ -170,13 +172,13 @@ void ves_shell_springs(ves_shell *shell, const shell_element *e, const ves_shell
     double weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1];
     for (int k = 0; k < shell->model->springs; k++) {
         const ves_shell_spring *spring = &shell->model->spring[k];
-        if (spring->sheet != e->sheet || !on_edge(shell, e, spring->edge)) continue;
+        if (spring->sheet != e->sheet || !ves_shell_on_edge(shell, e, spring->edge)) continue;
         int count = side_rule(body, spring->edge, weight, N);
         double share[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1] = {{0}};
         int place[VES_SHELL_NODES];
         for (int n = 0; n < body->kind->nodes; n++) place[n] = -1;
         for (int i = 0; i < count; i++) {
-            place[side_node(body->kind, spring->edge, i)] = i;
+            place[ves_shell_side_node(body->kind, spring->edge, i)] = i;
             for (int j = 0; j < count; j++)
                 for (int q = 0; q < count; q++) share[i][j] += weight[q] * N[q][i] * N[q][j];
         }

@@ -61,6 +61,7 @@ typedef struct ves_shell_model {
     int springs;
     const ves_shell_spring *spring;
     int cases;
+    bool gradients; /* are wanted (shell/adjoint.h) */
     /* Factors of buckling are wanted (shell/buckling.h). Of a model that mirror planes cut from the whole, modes need
      * not be as symmetric as the loads: [classes][nodes] what each node is held in, in place of `held`, for each
      * further way in which a mode can go on behind the planes (antisymmetric: along the plane, about its normal). */

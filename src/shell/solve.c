@@ -70,6 +70,7 @@ static ves_status build(ves_shell *shell, ves_arena *arena)
     for (int k = 0; k < shell->layouts; k++) VES_TRY(ves_shell_layout(shell, &shell->layout[k], arena));
     VES_TRY(factor_make(shell));
     if (shell->model->buckling) VES_TRY(ves_shell_buckling_make(shell, arena));
+    if (shell->model->gradients) VES_TRY(ves_shell_adjoint_make(shell, arena));
     return ves_shell_stresses_make(shell, arena);
 }
 
@@ -95,6 +96,7 @@ void ves_shell_destroy(ves_shell *shell)
     if (!shell) return;
     cholmod_common *c = &shell->common;
     ves_shell_buckling_free(shell);
+    ves_shell_adjoint_free(shell);
     for (int k = 0; shell->layout && k < shell->layouts; k++) {
         cholmod_free_sparse(&shell->layout[k].matrix, c);
         cholmod_free_factor(&shell->layout[k].factor, c);

@@ -44,10 +44,11 @@ static void place_fill(const ves_shell *shell, const shell_element *e, const ves
     }
 }
 
-/* Across the thickness shear is parabolic. */
+/* It is parabolic. */
+const double ves_shell_across[VES_SHELL_LEVELS] = {0, 1.5, 0};
+
 static void stress_fill(const ves_shell *shell, const ves_shell_body *body, int q, int at)
 {
-    static const double ACROSS[VES_SHELL_LEVELS] = {0, 1.5, 0};
     ves_shell_frame frame;
     double normal[3];
     ves_shell_frame_at(body, &body->kind->lattice.table, q, &frame);
@@ -59,7 +60,7 @@ static void stress_fill(const ves_shell *shell, const ves_shell_body *body, int 
                                  stress))
             for (int k = 0; k < VES_STRESSES; k++)
                 stress[k] = 0; /* at a pole, where an element has a side of no length */
-        stress[3] *= ACROSS[level], stress[4] *= ACROSS[level];
+        stress[3] *= ves_shell_across[level], stress[4] *= ves_shell_across[level];
     }
 }
 

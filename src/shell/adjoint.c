@@ -1,0 +1,478 @@
+#include "shell/adjoint.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/vector.h"
+#include "shell/lamina.h"
+#include "shell/law.h"
+#include "shell/side.h"
+
+enum { STATE, DUAL, FIELDS }; /* u and lambda */
+
+/* Of one of the fields at the element at hand: [nodes], [points]. */
+typedef struct shell_field {
+    double (*U)[3], (*A)[3], (*theta)[3];
+    double (*on_U)[3], (*on_A)[3]; /* adjoints */
+    double *strain, *force;
+} shell_field;
+
+struct shell_adjoint {
+    double *right;             /* [freedoms] dJ/du */
+    double (*turn[FIELDS])[3]; /* [nodes] adjoints of rotations */
+    shell_field field[FIELDS];
+    double (*on_X)[3], (*on_V)[3], (*work)[3]; /* [nodes of an element] */
+    cholmod_dense *solution, *Y, *E;
+};
+
+static ves_status vectors(ves_arena *arena, size_t count, double (**at)[3])
+{
+    *at = ves_arena_take(arena, count, sizeof **at);
+    return *at ? VES_OK : VES_MEMORY;
+}
+
+ves_status ves_shell_adjoint_make(ves_shell *shell, ves_arena *arena)
+{
+    size_t nodes = 0, points = 0;
+    shell_adjoint *a = ves_arena_take(arena, 1, sizeof *a);
+    if (!a) return VES_MEMORY;
+    shell->adjoint = a;
+    for (int k = 0; k < shell->model->sheets; k++) {
+        const ves_shell_kind *kind = &shell->kind[k];
+        if ((size_t)kind->nodes > nodes) nodes = (size_t)kind->nodes;
+        if ((size_t)kind->lattice.points > points) points = (size_t)kind->lattice.points;
+        if ((size_t)kind->rule.points > points) points = (size_t)kind->rule.points;
+    }
+    a->right = ves_arena_doubles(arena, (size_t)shell->layout[0].freedoms);
+    if (!a->right) return VES_MEMORY;
+    for (int k = 0; k < FIELDS; k++) {
+        shell_field *f = &a->field[k];
+        VES_TRY(vectors(arena, (size_t)shell->model->nodes, &a->turn[k]));
+        VES_TRY(vectors(arena, nodes, &f->U));
+        VES_TRY(vectors(arena, nodes, &f->A));
+        VES_TRY(vectors(arena, nodes, &f->theta));
+        VES_TRY(vectors(arena, nodes, &f->on_U));
+        VES_TRY(vectors(arena, nodes, &f->on_A));
+        f->strain = ves_arena_doubles(arena, points * VES_GENERAL);
+        f->force = ves_arena_doubles(arena, points * VES_GENERAL);
+        if (!f->strain || !f->force) return VES_MEMORY;
+    }
+    VES_TRY(vectors(arena, nodes, &a->on_X));
+    VES_TRY(vectors(arena, nodes, &a->on_V));
+    return vectors(arena, nodes, &a->work);
+}
+
+void ves_shell_adjoint_free(ves_shell *shell)
+{
+    shell_adjoint *a = shell->adjoint;
+    if (!a) return;
+    cholmod_free_dense(&a->solution, &shell->common);
+    cholmod_free_dense(&a->Y, &shell->common);
+    cholmod_free_dense(&a->E, &shell->common);
+}
+
+/* --- fields --- */
+
+static const double *state_of(const ves_shell *shell, int which)
+{
+    return (const double *)shell->solution->x + (size_t)which * shell->solution->d;
+}
+
+/* far: from the near side to the far one, or (back) the other way. */
+static void turn(const ves_shell *shell, bool back, const double a[3], double out[3])
+{
+    for (int r = 0; r < 3; r++) {
+        out[r] = 0;
+        for (int c = 0; c < 3; c++)
+            out[r] += (back ? shell->model->turn[c][r] : shell->model->turn[r][c]) * a[c];
+    }
+}
+
+/* The rotation of a welded node, as its near side has it. */
+static void rotation(const ves_shell *shell, int node, const double *vector, double theta[3])
+{
+    const shell_layout *layout = &shell->layout[0];
+    const shell_freedom *f = &layout->freedom[node];
+    memset(theta, 0, 3 * sizeof *theta);
+    for (int i = 0; i < 3; i++)
+        for (int c = 0; c < 3 && f->turns[i] >= 0; c++)
+            theta[c] += vector[f->first + f->turns[i]] * layout->pivot[node].axis[i][c];
+}
+
+static void rotation_at(const ves_shell *shell, int sheet, int s, const double *vector, double theta[3])
+{
+    double near[3];
+    rotation(shell, shell->model->weld[sheet][s], vector, near);
+    if (ves_shell_is_far(shell, sheet, s))
+        turn(shell, false, near, theta);
+    else
+        memcpy(theta, near, sizeof near);
+}
+
+/* Adds an adjoint of the rotation at s to that of its node. */
+static void rotation_pull(const ves_shell *shell, int sheet, int s, const double on[3], double (*to)[3])
+{
+    double near[3];
+    if (ves_shell_is_far(shell, sheet, s))
+        turn(shell, true, on, near);
+    else
+        memcpy(near, on, sizeof near);
+    for (int c = 0; c < 3; c++) to[shell->model->weld[sheet][s]][c] += near[c];
+}
+
+static void field_take(ves_shell *shell, const shell_element *e, const double *vector, shell_field *f)
+{
+    size_t nodes = (size_t)shell->kind[e->sheet].nodes;
+    ves_shell_field(shell, &shell->layout[0], e, vector);
+    memcpy(f->U, shell->U, nodes * sizeof *f->U);
+    memcpy(f->A, shell->A, nodes * sizeof *f->A);
+    memset(f->on_U, 0, nodes * sizeof *f->on_U);
+    memset(f->on_A, 0, nodes * sizeof *f->on_A);
+    for (size_t k = 0; k < nodes; k++) rotation_at(shell, e->sheet, e->s[k], vector, f->theta[k]);
+}
+
+static void strains_take(const ves_shell *shell, const ves_shell_body *body, const ves_shell_points *at,
+                         shell_field *f)
+{
+    ves_shell_strains(body, at, (const double(*)[3])f->U, (const double(*)[3])f->A, &shell->scratch,
+                      f->strain);
+}
+
+/* Adds `force` on the strains of a field to the adjoints of its displacements and directors, and to those of X and V,
+ * which have the same part in the strains. */
+static void force_pull(const ves_shell *shell, const ves_shell_body *body, const ves_shell_points *at,
+                       const double *force, shell_field *f)
+{
+    shell_adjoint *a = shell->adjoint;
+    const ves_shell_body moved = {body->kind, (const double(*)[3])f->U, (const double(*)[3])f->A};
+    ves_shell_pull(body, at, force, &shell->scratch, f->on_U, f->on_A);
+    ves_shell_pull(&moved, at, force, &shell->scratch, a->on_X, a->on_V);
+}
+
+/* Adds adjoints of a frame at a point to those of the nodes. */
+static void frame_pull(const ves_shell_table *t, int nodes, int q, const ves_shell_frame *on,
+                       shell_adjoint *a)
+{
+    for (int k = 0; k < nodes; k++) {
+        double N = t->N[q * nodes + k], Nr = t->Nr[q * nodes + k], Ns = t->Ns[q * nodes + k];
+        for (int c = 0; c < 3; c++) {
+            a->on_X[k][c] += Nr * on->Xr[c] + Ns * on->Xs[c];
+            a->on_V[k][c] += N * on->V[c] + Nr * on->Vr[c] + Ns * on->Vs[c];
+        }
+    }
+}
+
+/* --- what J reads --- */
+
+/* Forces on the strains at the lattice from the seeds of stresses; adjoints of frames and material, when `to` is given.
+ * at: the element's first point. */
+static void stresses_pull(const ves_shell *shell, const ves_shell_body *body, const ves_shell_seed *seed,
+                          int at, ves_law *to)
+{
+    shell_adjoint *a = shell->adjoint;
+    shell_field *f = &a->field[STATE];
+    const ves_shell_points *lattice = &body->kind->lattice;
+    memset(f->force, 0, sizeof *f->force * (size_t)(lattice->points * VES_GENERAL));
+    for (int q = 0; q < lattice->points; q++) {
+        ves_shell_frame frame;
+        ves_law law = {.E = 0};
+        ves_shell_frame_at(body, &lattice->table, q, &frame);
+        for (int level = 0; level < VES_SHELL_LEVELS; level++) {
+            double w[VES_STRESSES];
+            memcpy(w, seed->stress[at + q][level], sizeof w);
+            w[3] *= ves_shell_across[level], w[4] *= ves_shell_across[level];
+            const ves_law_seed of = {level - 1, w};
+            ves_law_stress(&frame, &shell->input->material, &of, f->strain + q * VES_GENERAL,
+                           f->force + q * VES_GENERAL, &law);
+        }
+        if (!to) continue;
+        frame_pull(&lattice->table, body->kind->nodes, q, &law.frame, a);
+        to->E += law.E, to->nu += law.nu;
+    }
+}
+
+/* Of places, thickness and areas at the lattice, which are of the shape alone. */
+static void places_pull(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                        const ves_shell_seed *seed, int at, const ves_shell_gradient *g)
+{
+    shell_adjoint *a = shell->adjoint;
+    const ves_shell_points *lattice = &body->kind->lattice;
+    const int nodes = body->kind->nodes;
+    for (int q = 0; q < lattice->points; q++) {
+        const double *N = lattice->table.N + q * nodes;
+        for (int k = 0; k < nodes; k++) {
+            for (int c = 0; c < 3; c++)
+                if (seed->X[c]) a->on_X[k][c] += N[k] * seed->X[c][at + q];
+            if (seed->thickness && g->thickness && g->thickness[e->sheet])
+                g->thickness[e->sheet][e->s[k]] += N[k] * seed->thickness[at + q];
+        }
+        if (!seed->area || seed->area[at + q] == 0) continue;
+        ves_shell_frame f, on = {.V = {0}};
+        double n[3];
+        ves_shell_frame_at(body, &lattice->table, q, &f);
+        ves_cross(f.Xr, f.Xs, n);
+        double area = sqrt(ves_dot(n, n));
+        if (!(area > 0)) continue;
+        for (int c = 0; c < 3; c++) n[c] *= seed->area[at + q] * lattice->weight[q] / area;
+        ves_cross(f.Xs, n, on.Xr);
+        ves_cross(n, f.Xr, on.Xs);
+        frame_pull(&lattice->table, nodes, q, &on, a);
+    }
+}
+
+/* dJ/du of what is read at nodes. */
+static void nodes_read(const ves_shell *shell, const ves_shell_seed *seed, double *right)
+{
+    const ves_shell_model *m = shell->model;
+    const shell_layout *layout = &shell->layout[0];
+    for (int sheet = 0; sheet < m->sheets; sheet++)
+        for (int s = 0; s < ves_shell_rows(&m->sheet[sheet]) * ves_shell_columns(&m->sheet[sheet]); s++) {
+            const shell_freedom *f = &layout->freedom[m->weld[sheet][s]];
+            double on[2][3] = {{0}}, near[2][3], n[3], d[3] = {0};
+            for (int c = 0; c < 3; c++) {
+                if (seed->U && seed->U[sheet][c]) on[0][c] = seed->U[sheet][c][s];
+                if (seed->director && seed->director[sheet][c]) d[c] = seed->director[sheet][c][s];
+                n[c] = shell->input->normal[sheet][c][s];
+            }
+            ves_cross(n, d, on[1]);
+            for (int k = 0; k < 2; k++)
+                if (ves_shell_is_far(shell, sheet, s))
+                    turn(shell, true, on[k], near[k]);
+                else
+                    memcpy(near[k], on[k], sizeof near[k]);
+            for (int i = 0; i < 3; i++) {
+                if (f->moves[i] >= 0)
+                    right[f->first + f->moves[i]] += ves_dot(m->node[m->weld[sheet][s]].frame[i], near[0]);
+                if (f->turns[i] >= 0)
+                    right[f->first + f->turns[i]] +=
+                        ves_dot(layout->pivot[m->weld[sheet][s]].axis[i], near[1]);
+            }
+        }
+}
+
+static void right_fill(ves_shell *shell, int which, const ves_shell_seed *seed)
+{
+    shell_adjoint *a = shell->adjoint;
+    shell_field *f = &a->field[STATE];
+    const double *force = (const double *)shell->force->x + (size_t)which * shell->force->d;
+    for (int k = 0; k < shell->layout[0].freedoms; k++) a->right[k] = seed->work * force[k];
+    nodes_read(shell, seed, a->right);
+    for (int i = 0, at = 0; i < shell->elements && seed->stress; i++) {
+        const shell_element *e = &shell->element[i];
+        ves_shell_body body = ves_shell_gather(shell, e);
+        field_take(shell, e, state_of(shell, which), f);
+        strains_take(shell, &body, &body.kind->lattice, f);
+        stresses_pull(shell, &body, seed, at, NULL);
+        ves_shell_pull(&body, &body.kind->lattice, f->force, &shell->scratch, f->on_U, f->on_A);
+        int columns = ves_shell_columns_of(shell, &shell->layout[0], e);
+        for (int k = 0; k < columns; k++) {
+            const ves_shell_column *c = &shell->column[k];
+            a->right[shell->freedom_of[k]] +=
+                ves_dot(c->vector, c->turns ? f->on_A[c->node] : f->on_U[c->node]);
+        }
+        at += body.kind->lattice.points;
+    }
+}
+
+static ves_status solve(ves_shell *shell)
+{
+    shell_adjoint *a = shell->adjoint;
+    size_t n = (size_t)shell->layout[0].freedoms;
+    cholmod_dense right = {.nrow = n, .ncol = 1, .nzmax = n, .d = n, .x = a->right, .xtype = CHOLMOD_REAL};
+    right.dtype = shell->layout[0].matrix->dtype;
+    return cholmod_solve2(CHOLMOD_A, shell->layout[0].factor, &right, NULL, &a->solution, NULL, &a->Y, &a->E,
+                          &shell->common)
+               ? VES_OK
+               : VES_MEMORY;
+}
+
+/* --- the gradient --- */
+
+/* Of - lambda' K u, at fixed rotations. */
+static void stiffness_pull(const ves_shell *shell, const ves_shell_body *body, ves_law *to)
+{
+    shell_adjoint *a = shell->adjoint;
+    const ves_shell_points *rule = &body->kind->rule;
+    shell_field *u = &a->field[STATE], *dual = &a->field[DUAL];
+    strains_take(shell, body, rule, u);
+    strains_take(shell, body, rule, dual);
+    for (int q = 0; q < rule->points; q++) {
+        const int at = q * VES_GENERAL;
+        ves_shell_frame frame;
+        ves_law law = {.E = 0};
+        ves_shell_frame_at(body, &rule->table, q, &frame);
+        ves_lamina_forces(&frame, &shell->input->material, -rule->weight[q], u->strain + at,
+                          dual->force + at);
+        ves_lamina_forces(&frame, &shell->input->material, -rule->weight[q], dual->strain + at,
+                          u->force + at);
+        ves_law_energy(&frame, &shell->input->material, -rule->weight[q], u->strain + at, dual->strain + at,
+                       &law);
+        frame_pull(&rule->table, body->kind->nodes, q, &law.frame, a);
+        to->E += law.E, to->nu += law.nu;
+    }
+    force_pull(shell, body, rule, u->force, u);
+    force_pull(shell, body, rule, dual->force, dual);
+}
+
+static void plane_add(double *const (*planes)[3], int sheet, int s, const double on[3])
+{
+    for (int c = 0; c < 3 && planes; c++)
+        if (planes[sheet][c]) planes[sheet][c][s] += on[c];
+}
+
+/* From adjoints at the nodes of an element to the planes: A = theta x V, V = side t n / 2. */
+static void nodes_give(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                       const ves_shell_gradient *g)
+{
+    shell_adjoint *a = shell->adjoint;
+    for (int k = 0; k < body->kind->nodes; k++) {
+        int s = e->s[k];
+        double half = shell->input->side[e->sheet] / 2, on_n[3], on_theta[3], more[3], along = 0;
+        for (int i = 0; i < FIELDS; i++) {
+            ves_cross(body->V[k], a->field[i].on_A[k], on_theta);
+            rotation_pull(shell, e->sheet, s, on_theta, a->turn[i]);
+            ves_cross(a->field[i].on_A[k], a->field[i].theta[k], more);
+            for (int c = 0; c < 3; c++) a->on_V[k][c] += more[c];
+        }
+        for (int c = 0; c < 3; c++) {
+            on_n[c] = half * shell->input->thickness[e->sheet][s] * a->on_V[k][c];
+            along += half * a->on_V[k][c] * shell->input->normal[e->sheet][c][s];
+        }
+        plane_add(g->X, e->sheet, s, a->on_X[k]);
+        plane_add(g->normal, e->sheet, s, on_n);
+        if (g->thickness && g->thickness[e->sheet]) g->thickness[e->sheet][s] += along;
+    }
+}
+
+static void element_give(ves_shell *shell, const shell_element *e, int which, const ves_shell_seed *seed,
+                         int at, ves_shell_gradient *g)
+{
+    shell_adjoint *a = shell->adjoint;
+    ves_shell_body body = ves_shell_gather(shell, e);
+    const size_t nodes = (size_t)body.kind->nodes;
+    ves_law law = {.E = 0};
+    memset(a->on_X, 0, nodes * sizeof *a->on_X);
+    memset(a->on_V, 0, nodes * sizeof *a->on_V);
+    field_take(shell, e, state_of(shell, which), &a->field[STATE]);
+    field_take(shell, e, a->solution->x, &a->field[DUAL]);
+    stiffness_pull(shell, &body, &law);
+    if (seed->stress) {
+        strains_take(shell, &body, &body.kind->lattice, &a->field[STATE]);
+        stresses_pull(shell, &body, seed, at, &law);
+        force_pull(shell, &body, &body.kind->lattice, a->field[STATE].force, &a->field[STATE]);
+    }
+    places_pull(shell, e, &body, seed, at, g);
+    for (size_t k = 0; k < nodes; k++)
+        for (int c = 0; c < 3; c++)
+            a->work[k][c] = a->field[DUAL].U[k][c] + seed->work * a->field[STATE].U[k][c];
+    const shell_side side = {.which = which,
+                             .U = (const double(*)[3])a->field[STATE].U,
+                             .dual = (const double(*)[3])a->field[DUAL].U,
+                             .work = (const double(*)[3])a->work,
+                             .on_X = a->on_X,
+                             .load = g->load ? &g->load[e->sheet] : NULL};
+    ves_shell_loads_pull(shell, e, &body, &side);
+    nodes_give(shell, e, &body, g);
+    g->E += law.E, g->nu += law.nu;
+}
+
+/* Director increments theta x n that J reads. */
+static void directors_give(const ves_shell *shell, int which, const ves_shell_seed *seed,
+                           const ves_shell_gradient *g)
+{
+    const ves_shell_model *m = shell->model;
+    for (int sheet = 0; sheet < m->sheets && seed->director; sheet++)
+        for (int s = 0; s < ves_shell_rows(&m->sheet[sheet]) * ves_shell_columns(&m->sheet[sheet]); s++) {
+            double theta[3], n[3], d[3], on[3];
+            for (int c = 0; c < 3; c++) {
+                n[c] = shell->input->normal[sheet][c][s];
+                d[c] = seed->director[sheet][c] ? seed->director[sheet][c][s] : 0;
+            }
+            rotation_at(shell, sheet, s, state_of(shell, which), theta);
+            ves_cross(d, theta, on);
+            plane_add(g->normal, sheet, s, on);
+            ves_cross(n, d, on);
+            rotation_pull(shell, sheet, s, on, shell->adjoint->turn[STATE]);
+        }
+}
+
+/* Rotations of smooth nodes go along with the normal, d theta = (n x dn) x theta; where a node is held about a direction of
+ * its tangent plane, the axis that is left turns by the drift besides. */
+static void rotations_give(const ves_shell *shell, int which, const ves_shell_gradient *g)
+{
+    const shell_adjoint *a = shell->adjoint;
+    const double *vector[FIELDS] = {state_of(shell, which), a->solution->x};
+    for (int node = 0; node < shell->model->nodes; node++) {
+        const shell_freedom *f = &shell->layout[0].freedom[node];
+        int sheet = shell->lead_sheet[node], s = shell->lead[node];
+        double spin[3] = {0}, n[3], on[3], drift[3] = {0}, slip = 0;
+        if (shell->model->node[node].fold || f->turns[1] < 0) continue;
+        if (f->turns[0] < 0) ves_shell_drift(shell, node, drift);
+        for (int k = 0; k < FIELDS; k++) {
+            double theta[3], part[3];
+            rotation(shell, node, vector[k], theta);
+            ves_cross(theta, a->turn[k][node], part);
+            for (int c = 0; c < 3; c++) spin[c] += part[c];
+            slip -= vector[k][f->first + f->turns[1]] *
+                    ves_dot(shell->layout[0].pivot[node].axis[0], a->turn[k][node]);
+        }
+        for (int c = 0; c < 3; c++) n[c] = shell->input->normal[sheet][c][s];
+        ves_cross(spin, n, on);
+        for (int c = 0; c < 3; c++) on[c] += slip * drift[c];
+        plane_add(g->normal, sheet, s, on);
+    }
+}
+
+/* What stiffens folds, as E t^3. */
+static void drilling_give(const ves_shell *shell, int which, ves_shell_gradient *g)
+{
+    const double *u = state_of(shell, which), *dual = shell->adjoint->solution->x;
+    for (int node = 0; node < shell->model->nodes; node++) {
+        const shell_freedom *f = &shell->layout[0].freedom[node];
+        int sheet = shell->lead_sheet[node], s = shell->lead[node];
+        double energy = 0, stiffness = ves_shell_drilling(shell, node);
+        for (int i = 0; i < 3 && stiffness > 0; i++)
+            if (f->turns[i] >= 0)
+                energy -= stiffness * u[f->first + f->turns[i]] * dual[f->first + f->turns[i]];
+        g->E += energy / shell->input->material.E;
+        if (g->thickness && g->thickness[sheet])
+            g->thickness[sheet][s] += 3 * energy / shell->input->thickness[sheet][s];
+    }
+}
+
+/* Forces at nodes. */
+static void points_give(const ves_shell *shell, int which, const ves_shell_seed *seed,
+                        const ves_shell_gradient *g)
+{
+    const double *u = state_of(shell, which), *dual = shell->adjoint->solution->x;
+    for (int k = 0; k < shell->input->points && g->force; k++) {
+        const ves_shell_point *p = &shell->input->point[k];
+        const shell_freedom *f = &shell->layout[0].freedom[p->node];
+        if (p->which != which) continue;
+        for (int i = 0; i < 3; i++)
+            for (int c = 0; c < 3 && f->moves[i] >= 0; c++) {
+                int at = f->first + f->moves[i];
+                g->force[k][c] += (dual[at] + seed->work * u[at]) * shell->model->node[p->node].frame[i][c];
+            }
+    }
+}
+
+ves_status ves_shell_adjoint(ves_shell *shell, int which, const ves_shell_seed *seed, ves_shell_gradient *g)
+{
+    shell_adjoint *a = shell->adjoint;
+    for (int k = 0; k < shell->model->sheets; k++)
+        if (shell->kind[k].plus) return VES_ABSENT;
+    right_fill(shell, which, seed);
+    VES_TRY(solve(shell));
+    for (int k = 0; k < FIELDS; k++) memset(a->turn[k], 0, sizeof **a->turn * (size_t)shell->model->nodes);
+    for (int i = 0, at = 0; i < shell->elements; i++) {
+        const shell_element *e = &shell->element[i];
+        element_give(shell, e, which, seed, at, g);
+        at += shell->kind[e->sheet].lattice.points;
+    }
+    directors_give(shell, which, seed, g);
+    rotations_give(shell, which, g);
+    drilling_give(shell, which, g);
+    points_give(shell, which, seed, g);
+    return VES_OK;
+}

@@ -1,0 +1,139 @@
+#include "shell/side.h"
+
+#include <math.h>
+
+#include "base/vector.h"
+
+static void at_point(int nodes, const double *N, const double (*of)[3], double out[3])
+{
+    for (int c = 0; c < 3; c++) {
+        out[c] = 0;
+        for (int k = 0; k < nodes; k++) out[c] += N[k] * of[k][c];
+    }
+}
+
+/* --- areas and pressure --- */
+
+/* The work w . (force |n| + pressure side n) with n = X_r x X_s. */
+static void surface_pull(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                         const shell_side *of)
+{
+    const ves_shell_load *load = &shell->input->load[of->which * shell->model->sheets + e->sheet];
+    const ves_shell_points *rule = &body->kind->rule;
+    const int nodes = body->kind->nodes;
+    if (!load->pressure && !load->area[0]) return;
+    for (int q = 0; q < rule->points; q++) {
+        const double *N = rule->table.N + q * nodes, weight = rule->weight[q],
+                     side = shell->input->side[e->sheet];
+        ves_shell_frame f;
+        double n[3], w[3], on_n[3], on_r[3], on_s[3], pressure = 0, along = 0;
+        ves_shell_frame_at(body, &rule->table, q, &f);
+        ves_cross(f.Xr, f.Xs, n);
+        at_point(nodes, N, of->work, w);
+        double area = sqrt(ves_dot(n, n));
+        for (int k = 0; k < nodes; k++) {
+            if (load->pressure) pressure += N[k] * load->pressure[e->s[k]];
+            for (int c = 0; c < 3 && load->area[0]; c++) along += N[k] * load->area[c][e->s[k]] * w[c];
+        }
+        for (int c = 0; c < 3; c++) on_n[c] = weight * (along * n[c] / area + pressure * side * w[c]);
+        ves_cross(f.Xs, on_n, on_r);
+        ves_cross(on_n, f.Xr, on_s);
+        for (int k = 0; k < nodes; k++)
+            for (int c = 0; c < 3; c++) {
+                of->on_X[k][c] +=
+                    rule->table.Nr[q * nodes + k] * on_r[c] + rule->table.Ns[q * nodes + k] * on_s[c];
+                if (of->load && of->load->area[c]) of->load->area[c][e->s[k]] += weight * area * N[k] * w[c];
+            }
+        for (int k = 0; k < nodes && of->load && of->load->pressure; k++)
+            of->load->pressure[e->s[k]] += weight * N[k] * side * ves_dot(n, w);
+    }
+}
+
+/* --- edges --- */
+
+enum { LINE = VES_SHELL_ORDER + 1 };
+
+typedef struct line {
+    int count, node[LINE];
+    double weight[LINE], N[LINE][LINE], slope[LINE][LINE], t[LINE][3], length[LINE];
+} line;
+
+static void line_at(const ves_shell_body *body, int edge, line *l)
+{
+    double node[LINE], at[LINE];
+    l->count = body->kind->order[edge < 2] + 1;
+    ves_rule_nodes(l->count - 1, node);
+    ves_rule_gauss(l->count, at, l->weight);
+    for (int k = 0; k < l->count; k++) l->node[k] = ves_shell_side_node(body->kind, edge, k);
+    for (int q = 0; q < l->count; q++) {
+        ves_rule_lagrange(l->count, node, at[q], l->N[q], l->slope[q]);
+        for (int c = 0; c < 3; c++) {
+            l->t[q][c] = 0;
+            for (int k = 0; k < l->count; k++) l->t[q][c] += l->slope[q][k] * body->X[l->node[k]][c];
+        }
+        l->length[q] = sqrt(ves_dot(l->t[q], l->t[q]));
+    }
+}
+
+static void line_field(const line *l, int q, const double (*of)[3], double out[3])
+{
+    for (int c = 0; c < 3; c++) {
+        out[c] = 0;
+        for (int k = 0; k < l->count; k++) out[c] += l->N[q][k] * of[l->node[k]][c];
+    }
+}
+
+/* `density` times the length at a point. */
+static void length_pull(const line *l, int q, double density, double (*on_X)[3])
+{
+    for (int k = 0; k < l->count; k++)
+        for (int c = 0; c < 3; c++)
+            on_X[l->node[k]][c] += density * l->weight[q] * l->slope[q][k] * l->t[q][c] / l->length[q];
+}
+
+static void line_pull(const ves_shell *shell, const shell_element *e, const ves_shell_body *body, int edge,
+                      const shell_side *of)
+{
+    const ves_shell_load *load = &shell->input->load[of->which * shell->model->sheets + e->sheet];
+    line l;
+    if (!load->line[edge][0] || !ves_shell_on_edge(shell, e, edge)) return;
+    line_at(body, edge, &l);
+    int first = (edge < 2 ? e->v : e->u) * (l.count - 1);
+    for (int q = 0; q < l.count; q++) {
+        double w[3], density = 0;
+        line_field(&l, q, of->work, w);
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < l.count; k++) {
+                density += l.N[q][k] * load->line[edge][c][first + k] * w[c];
+                if (of->load && of->load->line[edge][c])
+                    of->load->line[edge][c][first + k] += l.weight[q] * l.length[q] * l.N[q][k] * w[c];
+            }
+        length_pull(&l, q, density, of->on_X);
+    }
+}
+
+static void springs_pull(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                         const shell_side *of)
+{
+    for (int i = 0; i < shell->model->springs; i++) {
+        const ves_shell_spring *spring = &shell->model->spring[i];
+        line l;
+        if (spring->sheet != e->sheet || !ves_shell_on_edge(shell, e, spring->edge)) continue;
+        line_at(body, spring->edge, &l);
+        for (int q = 0; q < l.count; q++) {
+            double u[3], w[3], density = 0;
+            line_field(&l, q, of->U, u);
+            line_field(&l, q, of->dual, w);
+            for (int c = 0; c < 3; c++) density -= spring->stiffness[c] * u[c] * w[c];
+            length_pull(&l, q, density, of->on_X);
+        }
+    }
+}
+
+void ves_shell_loads_pull(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                          const shell_side *of)
+{
+    surface_pull(shell, e, body, of);
+    for (int edge = 0; edge < VES_SHELL_EDGES; edge++) line_pull(shell, e, body, edge, of);
+    springs_pull(shell, e, body, of);
+}

@@ -1,0 +1,20 @@
+/* What loads and springs add to a gradient. */
+#ifndef VES_SHELL_SIDE_H
+#define VES_SHELL_SIDE_H
+
+#include "shell/adjoint.h"
+#include "shell/inside.h"
+
+/* Of one element: displacements u, and those that the forces of the case work on; adds to on_X [nodes] and to the planes of
+ * the load. */
+typedef struct shell_side {
+    int which;
+    const double (*U)[3], (*dual)[3],
+        (*work)[3]; /* [nodes]: u; lambda; lambda and what J reads of the work */
+    double (*on_X)[3];
+    const ves_shell_load_gradient *load; /* of the sheet; NULL: not asked */
+} shell_side;
+void ves_shell_loads_pull(const ves_shell *shell, const shell_element *element, const ves_shell_body *body,
+                          const shell_side *side);
+
+#endif
