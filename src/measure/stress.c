@@ -1,6 +1,7 @@
 #include "measure/stress.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "formula/formula.h"
 #include "measure/argument.h"
@@ -35,29 +36,77 @@ size_t ves_stress_room(const ves_measure_input *input)
 /* In the order of the arguments that the reader compiles SHELLWISE formulas with. */
 enum { AT_X, AT_Y, AT_Z, AT_U, AT_V, AT_THICKNESS, NAMES };
 
-static bool counts(const ves_measure_input *input, const ves_shell_stresses *s, int k)
+/* A reported point, or one between two of them. */
+typedef struct place {
+    double at[NAMES], stress[VES_SHELL_LEVELS][VES_STRESSES];
+} place;
+
+static void place_at(const ves_measure_input *input, const ves_shell_stresses *s, int k, place *p)
+{
+    const double *u = input->shell->u_range[s->sheet[k]], *v = input->shell->v_range[s->sheet[k]];
+    for (int c = 0; c < 3; c++) p->at[AT_X + c] = s->X[c][k];
+    p->at[AT_U] = u[0] + (u[1] - u[0]) * s->u[k];
+    p->at[AT_V] = v[0] + (v[1] - v[0]) / VES_TWO_PI * s->v[k];
+    p->at[AT_THICKNESS] = s->thickness[k];
+    memcpy(p->stress, s->stress[k], sizeof p->stress);
+}
+
+static bool counts(const ves_measure_input *input, const place *p)
 {
     const ves_arg *where = &input->args->arg[VES_STRESS_WHERE];
-    if (!where->given) return true;
-    double at[NAMES];
-    const double *u = input->shell->u_range[s->sheet[k]], *v = input->shell->v_range[s->sheet[k]];
-    for (int c = 0; c < 3; c++) at[AT_X + c] = s->X[c][k];
-    at[AT_U] = u[0] + (u[1] - u[0]) * s->u[k];
-    at[AT_V] = v[0] + (v[1] - v[0]) / VES_TWO_PI * s->v[k];
-    at[AT_THICKNESS] = s->thickness[k];
-    return ves_formula_eval(where->formula[0], input->number, at, input->room) != 0;
+    return !where->given || ves_formula_eval(where->formula[0], input->number, p->at, input->room) != 0;
 }
 
 /* The largest of the levels that count at a point. */
-static double at_point(const ves_measure_input *input, const ves_shell_stresses *s, int k,
-                       double (*of)(const double *stress))
+static double at_place(const ves_measure_input *input, const place *p, double (*of)(const double *stress))
 {
     int through = input->args->arg[VES_STRESS_THROUGH].value;
     double most = 0;
     for (int level = 0; level < VES_SHELL_LEVELS; level++) {
         bool middle = level == 1;
         if (through && middle != (through == 2)) continue;
-        most = fmax(most, of(s->stress[k][level]));
+        most = fmax(most, of(p->stress[level]));
+    }
+    return most;
+}
+
+static void between(const place *a, const place *b, double t, place *p)
+{
+    for (int k = 0; k < NAMES; k++) p->at[k] = (1 - t) * a->at[k] + t * b->at[k];
+    for (int l = 0; l < VES_SHELL_LEVELS; l++)
+        for (int k = 0; k < VES_STRESSES; k++)
+            p->stress[l][k] = (1 - t) * a->stress[l][k] + t * b->stress[l][k];
+}
+
+/* Where `where` ends between a point that counts and a neighbour that does not: stresses are often largest there. */
+static double at_border(const ves_measure_input *input, const place *in, const place *out,
+                        double (*of)(const double *stress))
+{
+    double low = 0, high = 1;
+    place p = *in;
+    for (int step = 0; step < 30; step++) {
+        double middle = (low + high) / 2;
+        between(in, out, middle, &p);
+        *(counts(input, &p) ? &low : &high) = middle;
+    }
+    between(in, out, low, &p);
+    return at_place(input, &p, of);
+}
+
+/* Point k, and the borders between it and those before it in its element; -1: nothing counts. at: of the element. */
+static double largest_at(const ves_measure_input *input, const ves_shell_stresses *s, int k, int at,
+                         double (*of)(const double *stress))
+{
+    const int *lattice = s->lattice[s->sheet[k]], before[2] = {1, lattice[0]};
+    place p, other;
+    place_at(input, s, k, &p);
+    bool in = counts(input, &p);
+    double most = in ? at_place(input, &p, of) : -1;
+    for (int d = 0; d < 2 && input->args->arg[VES_STRESS_WHERE].given; d++) {
+        if (d ? at < lattice[0] : at % lattice[0] == 0) continue;
+        place_at(input, s, k - before[d], &other);
+        if (counts(input, &other) == in) continue;
+        most = fmax(most, in ? at_border(input, &p, &other, of) : at_border(input, &other, &p, of));
     }
     return most;
 }
@@ -68,14 +117,20 @@ ves_status ves_stress_largest(const ves_measure_input *input, double (*of)(const
     const ves_shell_stresses *s =
         ves_shell_stress(input->shell->shell, input->args->arg[VES_STRESS_CASE].value);
     double p = ves_argument_number(input, VES_STRESS_SMOOTH), most = -1;
-    for (int k = 0; k < s->points; k++)
-        if (counts(input, s, k)) most = fmax(most, at_point(input, s, k, of));
+    for (int k = 0, at = 0; k < s->points; k++) {
+        const int *lattice = s->lattice[s->sheet[k]];
+        most = fmax(most, largest_at(input, s, k, at, of));
+        at = at + 1 == lattice[0] * lattice[1] ? 0 : at + 1;
+    }
     if (most < 0) return VES_NO_NUMBER;
     *value = most;
     if (!(p > 0) || most == 0) return VES_OK;
     ves_power power = {.p = p, .largest = most};
-    for (int k = 0; k < s->points; k++)
-        if (counts(input, s, k)) ves_power_add(&power, at_point(input, s, k, of), s->area[k]);
+    for (int k = 0; k < s->points; k++) {
+        place here;
+        place_at(input, s, k, &here);
+        if (counts(input, &here)) ves_power_add(&power, at_place(input, &here, of), s->area[k]);
+    }
     ves_power_close(&power);
     *value = power.mean;
     return VES_OK;

@@ -9,7 +9,7 @@
 
 #include "base/vector.h"
 
-enum { ALONG = 5, AROUND = 16, PLACES = ALONG * AROUND, FEW = 6, FOLDS = 64 };
+enum { ALONG = 5, AROUND = 16, PLACES = ALONG * AROUND, FEW = 6, FOLDS = 64, LOW_FOLDS = 8 };
 
 static const double SAME = 1e-9;  /* of the shell's size, or of the largest value */
 static const double STRIP = 1e-3; /* rad: the ring's strip; what it leaves out is of the square of this */
@@ -277,12 +277,21 @@ static bool possible(const ves_plan *plan, const plan_shell *shell)
     return round;
 }
 
-static void sector_fill(seeker *k, const finding *f, plan_sector *s)
+/* Elements that are tied need a width: strips of a ring are of those that are not. */
+static bool low_order(const plan_shell *shell)
+{
+    const ves_shell_def *def = shell->def;
+    return def->mesh.order && def->mesh.order < VES_SHELL_FULL;
+}
+
+static void sector_fill(seeker *k, finding *f, plan_sector *s)
 {
     int n = FOLDS;
+    double normal[3];
     while (n > 1 && !f->fold[n]) n--;
     bool plane = f->mirror[n][0] || f->mirror[n][1];
-    s->ring = f->ring;
+    s->ring = f->ring && !low_order(k->shell);
+    if (f->ring && !s->ring) n = LOW_FOLDS, plane = f->mirror[n][0] = mirrored_alike(k, 0, normal);
     if (!s->ring && n == 1 && !plane) return;
     /* Modes of buckling that go round are in no half of a sector, but where there are no more than two. */
     if (k->shell->buckles && n > 2) plane = false;

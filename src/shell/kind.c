@@ -1,6 +1,7 @@
 #include "shell/kind.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { LINE = VES_SHELL_ORDER + 2 };
 
@@ -112,6 +113,7 @@ static ves_status rule_make(ves_shell_kind *kind, bool flat, ves_arena *arena)
     int count[2] = {kind->order[0] + 1, flat ? 1 : kind->order[1] + 1};
     for (int d = 0; d < 2; d++) ves_rule_gauss(count[d], at[d], weight[d]);
     rule->points = count[0] * count[1];
+    memcpy(rule->along, count, sizeof count);
     VES_TRY(product(at[0], count[0], at[1], count[1], arena, &rule->at));
     rule->weight = ves_arena_doubles(arena, (size_t)rule->points);
     if (!rule->weight) return VES_MEMORY;
@@ -136,6 +138,7 @@ static ves_status lattice_make(ves_shell_kind *kind, bool flat, ves_arena *arena
         for (int k = 0; k < count[d]; k++) at[d][k] = count[d] == 1 ? 0 : 2.0 * k / (count[d] - 1) - 1;
     }
     kind->lattice.points = count[0] * count[1];
+    memcpy(kind->lattice.along, count, sizeof count);
     VES_TRY(product(at[0], count[0], at[1], count[1], arena, &kind->lattice.at));
     kind->lattice.weight = ves_arena_doubles(arena, (size_t)kind->lattice.points);
     if (!kind->lattice.weight) return VES_MEMORY;

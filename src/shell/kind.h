@@ -31,6 +31,7 @@ typedef struct ves_shell_table {
 typedef struct ves_shell_points {
     int points;
     double (*at)[2];
+    int along[2];   /* of a tensor product: points along r and s, r fastest */
     double *weight; /* of a quadrature on [-1, 1]^2 */
     ves_shell_table table;
     double *mix[VES_STRAINS];

@@ -127,6 +127,7 @@ void ves_shell_reaction(ves_shell *shell, int which, int sheet, int edge, double
 enum { VES_SHELL_LEVELS = 3 }; /* z = -1, 0, +1 */
 typedef struct ves_shell_stresses {
     int points;
+    int (*lattice)[2]; /* [sheets] points of an element along r and s, r fastest */
     int *sheet;
     double *u, *v, *X[3], *thickness;
     double *area; /* m^2 of the mid-surface that a point stands for (Simpson) */

@@ -13,6 +13,10 @@ ves_status ves_shell_stresses_make(ves_shell *shell, ves_arena *arena)
     for (int k = 0; k < shell->elements; k++)
         count += (size_t)shell->kind[shell->element[k].sheet].lattice.points;
     s->points = (int)count;
+    s->lattice = ves_arena_take(arena, (size_t)shell->model->sheets, sizeof *s->lattice);
+    if (!s->lattice) return VES_MEMORY;
+    for (int k = 0; k < shell->model->sheets; k++)
+        memcpy(s->lattice[k], shell->kind[k].lattice.along, sizeof s->lattice[k]);
     s->sheet = ves_arena_take(arena, count, sizeof *s->sheet);
     s->u = ves_arena_doubles(arena, count);
     s->v = ves_arena_doubles(arena, count);
