@@ -4,26 +4,10 @@
 #include <string.h>
 
 #include "base/vector.h"
+#include "shell/adjoint_inside.h"
 #include "shell/lamina.h"
 #include "shell/law.h"
 #include "shell/side.h"
-
-enum { STATE, DUAL, FIELDS }; /* u and lambda */
-
-/* Of one of the fields at the element at hand: [nodes], [points]. */
-typedef struct shell_field {
-    double (*U)[3], (*A)[3], (*theta)[3];
-    double (*on_U)[3], (*on_A)[3]; /* adjoints */
-    double *strain, *force;
-} shell_field;
-
-struct shell_adjoint {
-    double *right;             /* [freedoms] dJ/du */
-    double (*turn[FIELDS])[3]; /* [nodes] adjoints of rotations */
-    shell_field field[FIELDS];
-    double (*on_X)[3], (*on_V)[3], (*work)[3]; /* [nodes of an element] */
-    cholmod_dense *solution, *Y, *E;
-};
 
 static ves_status vectors(ves_arena *arena, size_t count, double (**at)[3])
 {
@@ -45,9 +29,10 @@ ves_status ves_shell_adjoint_make(ves_shell *shell, ves_arena *arena)
     }
     a->right = ves_arena_doubles(arena, (size_t)shell->layout[0].freedoms);
     if (!a->right) return VES_MEMORY;
-    for (int k = 0; k < FIELDS; k++) {
+    for (int k = 0; k < (shell->model->buckling ? FIELDS : REAL); k++) {
         shell_field *f = &a->field[k];
-        VES_TRY(vectors(arena, (size_t)shell->model->nodes, &a->turn[k]));
+        *f = (shell_field){.layout = &shell->layout[0], .co = 1, .other = f};
+        VES_TRY(vectors(arena, (size_t)shell->model->nodes, &f->turn));
         VES_TRY(vectors(arena, nodes, &f->U));
         VES_TRY(vectors(arena, nodes, &f->A));
         VES_TRY(vectors(arena, nodes, &f->theta));
@@ -59,7 +44,11 @@ ves_status ves_shell_adjoint_make(ves_shell *shell, ves_arena *arena)
     }
     VES_TRY(vectors(arena, nodes, &a->on_X));
     VES_TRY(vectors(arena, nodes, &a->on_V));
-    return vectors(arena, nodes, &a->work);
+    VES_TRY(vectors(arena, nodes, &a->work));
+    VES_TRY(vectors(arena, nodes, &a->twice));
+    VES_TRY(vectors(arena, nodes, &a->none));
+    VES_TRY(vectors(arena, nodes, &a->on_twice));
+    return shell->model->buckling ? ves_adjoint_mode_make(shell, arena) : VES_OK;
 }
 
 void ves_shell_adjoint_free(ves_shell *shell)
@@ -89,9 +78,8 @@ static void turn(const ves_shell *shell, bool back, const double a[3], double ou
 }
 
 /* The rotation of a welded node, as its near side has it. */
-static void rotation(const ves_shell *shell, int node, const double *vector, double theta[3])
+static void rotation(const shell_layout *layout, int node, const double *vector, double theta[3])
 {
-    const shell_layout *layout = &shell->layout[0];
     const shell_freedom *f = &layout->freedom[node];
     memset(theta, 0, 3 * sizeof *theta);
     for (int i = 0; i < 3; i++)
@@ -99,36 +87,47 @@ static void rotation(const ves_shell *shell, int node, const double *vector, dou
             theta[c] += vector[f->first + f->turns[i]] * layout->pivot[node].axis[i][c];
 }
 
-static void rotation_at(const ves_shell *shell, int sheet, int s, const double *vector, double theta[3])
+static void rotation_at(const ves_shell *shell, const shell_field *f, int sheet, int s, double theta[3])
 {
-    double near[3];
-    rotation(shell, shell->model->weld[sheet][s], vector, near);
-    if (ves_shell_is_far(shell, sheet, s))
-        turn(shell, false, near, theta);
-    else
-        memcpy(theta, near, sizeof near);
+    double near[3], other[3];
+    int node = shell->model->weld[sheet][s];
+    rotation(f->layout, node, f->vector, near);
+    memcpy(theta, near, sizeof near);
+    if (!ves_shell_is_far(shell, sheet, s)) return;
+    rotation(f->layout, node, f->other->vector, other);
+    for (int c = 0; c < 3; c++) near[c] = f->co * near[c] + f->mix * other[c];
+    turn(shell, false, near, theta);
 }
 
-/* Adds an adjoint of the rotation at s to that of its node. */
-static void rotation_pull(const ves_shell *shell, int sheet, int s, const double on[3], double (*to)[3])
+void ves_adjoint_rotation(const ves_shell *shell, int sheet, int s, const double on[3], const shell_field *f)
 {
+    int node = shell->model->weld[sheet][s];
     double near[3];
-    if (ves_shell_is_far(shell, sheet, s))
-        turn(shell, true, on, near);
-    else
-        memcpy(near, on, sizeof near);
-    for (int c = 0; c < 3; c++) to[shell->model->weld[sheet][s]][c] += near[c];
+    if (!ves_shell_is_far(shell, sheet, s)) {
+        for (int c = 0; c < 3; c++) f->turn[node][c] += on[c];
+        return;
+    }
+    turn(shell, true, on, near);
+    for (int c = 0; c < 3; c++)
+        f->turn[node][c] += f->co * near[c], f->other->turn[node][c] += f->mix * near[c];
 }
 
-static void field_take(ves_shell *shell, const shell_element *e, const double *vector, shell_field *f)
+void ves_adjoint_field(ves_shell *shell, const shell_element *e, shell_field *f)
 {
     size_t nodes = (size_t)shell->kind[e->sheet].nodes;
-    ves_shell_field(shell, &shell->layout[0], e, vector);
+    ves_shell_field(shell, f->layout, e, f->vector);
     memcpy(f->U, shell->U, nodes * sizeof *f->U);
     memcpy(f->A, shell->A, nodes * sizeof *f->A);
     memset(f->on_U, 0, nodes * sizeof *f->on_U);
     memset(f->on_A, 0, nodes * sizeof *f->on_A);
-    for (size_t k = 0; k < nodes; k++) rotation_at(shell, e->sheet, e->s[k], vector, f->theta[k]);
+    for (size_t k = 0; k < nodes; k++) rotation_at(shell, f, e->sheet, e->s[k], f->theta[k]);
+    if (f->mix == 0 && f->co == 1) return;
+    ves_shell_field(shell, f->layout, e, f->other->vector);
+    for (size_t k = 0; k < nodes; k++)
+        for (int c = 0; c < 3 && ves_shell_is_far(shell, e->sheet, e->s[k]); c++) {
+            f->U[k][c] = f->co * f->U[k][c] + f->mix * shell->U[k][c];
+            f->A[k][c] = f->co * f->A[k][c] + f->mix * shell->A[k][c];
+        }
 }
 
 static void strains_take(const ves_shell *shell, const ves_shell_body *body, const ves_shell_points *at,
@@ -138,9 +137,7 @@ static void strains_take(const ves_shell *shell, const ves_shell_body *body, con
                       f->strain);
 }
 
-/* Adds `force` on the strains of a field to the adjoints of its displacements and directors, and to those of X and V,
- * which have the same part in the strains. */
-static void force_pull(const ves_shell *shell, const ves_shell_body *body, const ves_shell_points *at,
+void ves_adjoint_force(const ves_shell *shell, const ves_shell_body *body, const ves_shell_points *at,
                        const double *force, shell_field *f)
 {
     shell_adjoint *a = shell->adjoint;
@@ -149,8 +146,7 @@ static void force_pull(const ves_shell *shell, const ves_shell_body *body, const
     ves_shell_pull(&moved, at, force, &shell->scratch, a->on_X, a->on_V);
 }
 
-/* Adds adjoints of a frame at a point to those of the nodes. */
-static void frame_pull(const ves_shell_table *t, int nodes, int q, const ves_shell_frame *on,
+void ves_adjoint_frame(const ves_shell_table *t, int nodes, int q, const ves_shell_frame *on,
                        shell_adjoint *a)
 {
     for (int k = 0; k < nodes; k++) {
@@ -186,7 +182,7 @@ static void stresses_pull(const ves_shell *shell, const ves_shell_body *body, co
                            f->force + q * VES_GENERAL, &law);
         }
         if (!to) continue;
-        frame_pull(&lattice->table, body->kind->nodes, q, &law.frame, a);
+        ves_adjoint_frame(&lattice->table, body->kind->nodes, q, &law.frame, a);
         to->E += law.E, to->nu += law.nu;
     }
 }
@@ -216,7 +212,7 @@ static void places_pull(const ves_shell *shell, const shell_element *e, const ve
         for (int c = 0; c < 3; c++) n[c] *= seed->area[at + q] * lattice->weight[q] / area;
         ves_cross(f.Xs, n, on.Xr);
         ves_cross(n, f.Xr, on.Xs);
-        frame_pull(&lattice->table, nodes, q, &on, a);
+        ves_adjoint_frame(&lattice->table, nodes, q, &on, a);
     }
 }
 
@@ -257,13 +253,16 @@ static void right_fill(ves_shell *shell, int which, const ves_shell_seed *seed)
     const double *force = (const double *)shell->force->x + (size_t)which * shell->force->d;
     for (int k = 0; k < shell->layout[0].freedoms; k++) a->right[k] = seed->work * force[k];
     nodes_read(shell, seed, a->right);
-    for (int i = 0, at = 0; i < shell->elements && seed->stress; i++) {
+    for (int i = 0, at = 0; i < shell->elements && (seed->stress || a->fields > REAL); i++) {
         const shell_element *e = &shell->element[i];
         ves_shell_body body = ves_shell_gather(shell, e);
-        field_take(shell, e, state_of(shell, which), f);
-        strains_take(shell, &body, &body.kind->lattice, f);
-        stresses_pull(shell, &body, seed, at, NULL);
-        ves_shell_pull(&body, &body.kind->lattice, f->force, &shell->scratch, f->on_U, f->on_A);
+        ves_adjoint_field(shell, e, f);
+        if (seed->stress) {
+            strains_take(shell, &body, &body.kind->lattice, f);
+            stresses_pull(shell, &body, seed, at, NULL);
+            ves_shell_pull(&body, &body.kind->lattice, f->force, &shell->scratch, f->on_U, f->on_A);
+        }
+        if (a->fields > REAL) ves_adjoint_mode_right(shell, e, &body);
         int columns = ves_shell_columns_of(shell, &shell->layout[0], e);
         for (int k = 0; k < columns; k++) {
             const ves_shell_column *c = &shell->column[k];
@@ -307,11 +306,11 @@ static void stiffness_pull(const ves_shell *shell, const ves_shell_body *body, v
                           u->force + at);
         ves_law_energy(&frame, &shell->input->material, -rule->weight[q], u->strain + at, dual->strain + at,
                        &law);
-        frame_pull(&rule->table, body->kind->nodes, q, &law.frame, a);
+        ves_adjoint_frame(&rule->table, body->kind->nodes, q, &law.frame, a);
         to->E += law.E, to->nu += law.nu;
     }
-    force_pull(shell, body, rule, u->force, u);
-    force_pull(shell, body, rule, dual->force, dual);
+    ves_adjoint_force(shell, body, rule, u->force, u);
+    ves_adjoint_force(shell, body, rule, dual->force, dual);
 }
 
 static void plane_add(double *const (*planes)[3], int sheet, int s, const double on[3])
@@ -328,9 +327,9 @@ static void nodes_give(const ves_shell *shell, const shell_element *e, const ves
     for (int k = 0; k < body->kind->nodes; k++) {
         int s = e->s[k];
         double half = shell->input->side[e->sheet] / 2, on_n[3], on_theta[3], more[3], along = 0;
-        for (int i = 0; i < FIELDS; i++) {
+        for (int i = 0; i < a->fields; i++) {
             ves_cross(body->V[k], a->field[i].on_A[k], on_theta);
-            rotation_pull(shell, e->sheet, s, on_theta, a->turn[i]);
+            ves_adjoint_rotation(shell, e->sheet, s, on_theta, &a->field[i]);
             ves_cross(a->field[i].on_A[k], a->field[i].theta[k], more);
             for (int c = 0; c < 3; c++) a->on_V[k][c] += more[c];
         }
@@ -353,13 +352,12 @@ static void element_give(ves_shell *shell, const shell_element *e, int which, co
     ves_law law = {.E = 0};
     memset(a->on_X, 0, nodes * sizeof *a->on_X);
     memset(a->on_V, 0, nodes * sizeof *a->on_V);
-    field_take(shell, e, state_of(shell, which), &a->field[STATE]);
-    field_take(shell, e, a->solution->x, &a->field[DUAL]);
+    for (int k = 0; k < a->fields; k++) ves_adjoint_field(shell, e, &a->field[k]);
     stiffness_pull(shell, &body, &law);
     if (seed->stress) {
         strains_take(shell, &body, &body.kind->lattice, &a->field[STATE]);
         stresses_pull(shell, &body, seed, at, &law);
-        force_pull(shell, &body, &body.kind->lattice, a->field[STATE].force, &a->field[STATE]);
+        ves_adjoint_force(shell, &body, &body.kind->lattice, a->field[STATE].force, &a->field[STATE]);
     }
     places_pull(shell, e, &body, seed, at, g);
     for (size_t k = 0; k < nodes; k++)
@@ -372,13 +370,13 @@ static void element_give(ves_shell *shell, const shell_element *e, int which, co
                              .on_X = a->on_X,
                              .load = g->load ? &g->load[e->sheet] : NULL};
     ves_shell_loads_pull(shell, e, &body, &side);
+    if (a->fields > REAL) ves_adjoint_mode_give(shell, which, e, &body, &law, side.load);
     nodes_give(shell, e, &body, g);
     g->E += law.E, g->nu += law.nu;
 }
 
 /* Director increments theta x n that J reads. */
-static void directors_give(const ves_shell *shell, int which, const ves_shell_seed *seed,
-                           const ves_shell_gradient *g)
+static void directors_give(const ves_shell *shell, const ves_shell_seed *seed, const ves_shell_gradient *g)
 {
     const ves_shell_model *m = shell->model;
     for (int sheet = 0; sheet < m->sheets && seed->director; sheet++)
@@ -388,52 +386,60 @@ static void directors_give(const ves_shell *shell, int which, const ves_shell_se
                 n[c] = shell->input->normal[sheet][c][s];
                 d[c] = seed->director[sheet][c] ? seed->director[sheet][c][s] : 0;
             }
-            rotation_at(shell, sheet, s, state_of(shell, which), theta);
+            rotation_at(shell, &shell->adjoint->field[STATE], sheet, s, theta);
             ves_cross(d, theta, on);
             plane_add(g->normal, sheet, s, on);
             ves_cross(n, d, on);
-            rotation_pull(shell, sheet, s, on, shell->adjoint->turn[STATE]);
+            ves_adjoint_rotation(shell, sheet, s, on, &shell->adjoint->field[STATE]);
         }
 }
 
-/* Rotations of smooth nodes go along with the normal, d theta = (n x dn) x theta; where a node is held about a direction of
+/* Rotations of a smooth node go along with the normal, d theta = (n x dn) x theta; where it is held about a direction of
  * its tangent plane, the axis that is left turns by the drift besides. */
-static void rotations_give(const ves_shell *shell, int which, const ves_shell_gradient *g)
+static void rotation_give(const ves_shell *shell, int node, const shell_field *f, double on[3])
+{
+    const shell_freedom *freedom = &f->layout->freedom[node];
+    int sheet = shell->lead_sheet[node], s = shell->lead[node];
+    double n[3], theta[3], spin[3], part[3], drift[3];
+    if (freedom->turns[1] < 0) return;
+    for (int c = 0; c < 3; c++) n[c] = shell->input->normal[sheet][c][s];
+    rotation(f->layout, node, f->vector, theta);
+    ves_cross(theta, f->turn[node], spin);
+    ves_cross(spin, n, part);
+    for (int c = 0; c < 3; c++) on[c] += part[c];
+    if (freedom->turns[0] >= 0) return;
+    ves_shell_drift(shell, f->layout, node, drift);
+    double slip = f->vector[freedom->first + freedom->turns[1]] *
+                  ves_dot(f->layout->pivot[node].axis[0], f->turn[node]);
+    for (int c = 0; c < 3; c++) on[c] -= slip * drift[c];
+}
+
+static void rotations_give(const ves_shell *shell, const ves_shell_gradient *g)
 {
     const shell_adjoint *a = shell->adjoint;
-    const double *vector[FIELDS] = {state_of(shell, which), a->solution->x};
     for (int node = 0; node < shell->model->nodes; node++) {
-        const shell_freedom *f = &shell->layout[0].freedom[node];
-        int sheet = shell->lead_sheet[node], s = shell->lead[node];
-        double spin[3] = {0}, n[3], on[3], drift[3] = {0}, slip = 0;
-        if (shell->model->node[node].fold || f->turns[1] < 0) continue;
-        if (f->turns[0] < 0) ves_shell_drift(shell, node, drift);
-        for (int k = 0; k < FIELDS; k++) {
-            double theta[3], part[3];
-            rotation(shell, node, vector[k], theta);
-            ves_cross(theta, a->turn[k][node], part);
-            for (int c = 0; c < 3; c++) spin[c] += part[c];
-            slip -= vector[k][f->first + f->turns[1]] *
-                    ves_dot(shell->layout[0].pivot[node].axis[0], a->turn[k][node]);
-        }
-        for (int c = 0; c < 3; c++) n[c] = shell->input->normal[sheet][c][s];
-        ves_cross(spin, n, on);
-        for (int c = 0; c < 3; c++) on[c] += slip * drift[c];
-        plane_add(g->normal, sheet, s, on);
+        double on[3] = {0};
+        if (shell->model->node[node].fold) continue;
+        for (int k = 0; k < a->fields; k++) rotation_give(shell, node, &a->field[k], on);
+        plane_add(g->normal, shell->lead_sheet[node], shell->lead[node], on);
     }
 }
 
 /* What stiffens folds, as E t^3. */
-static void drilling_give(const ves_shell *shell, int which, ves_shell_gradient *g)
+static void drilling_give(const ves_shell *shell, ves_shell_gradient *g)
 {
-    const double *u = state_of(shell, which), *dual = shell->adjoint->solution->x;
+    const shell_adjoint *a = shell->adjoint;
     for (int node = 0; node < shell->model->nodes; node++) {
-        const shell_freedom *f = &shell->layout[0].freedom[node];
         int sheet = shell->lead_sheet[node], s = shell->lead[node];
-        double energy = 0, stiffness = ves_shell_drilling(shell, node);
-        for (int i = 0; i < 3 && stiffness > 0; i++)
-            if (f->turns[i] >= 0)
-                energy -= stiffness * u[f->first + f->turns[i]] * dual[f->first + f->turns[i]];
+        double u[3], dual[3], stiffness = ves_shell_drilling(shell, node);
+        if (!(stiffness > 0)) continue;
+        rotation(a->field[STATE].layout, node, a->field[STATE].vector, u);
+        rotation(a->field[DUAL].layout, node, a->field[DUAL].vector, dual);
+        double energy = -ves_dot(u, dual) * stiffness;
+        for (int k = REAL; k < a->fields; k++) {
+            rotation(a->field[k].layout, node, a->field[k].vector, u);
+            energy += a->weight * a->factor * stiffness * ves_dot(u, u);
+        }
         g->E += energy / shell->input->material.E;
         if (g->thickness && g->thickness[sheet])
             g->thickness[sheet][s] += 3 * energy / shell->input->thickness[sheet][s];
@@ -462,17 +468,22 @@ ves_status ves_shell_adjoint(ves_shell *shell, int which, const ves_shell_seed *
     shell_adjoint *a = shell->adjoint;
     for (int k = 0; k < shell->model->sheets; k++)
         if (shell->kind[k].plus) return VES_ABSENT;
+    a->fields = REAL;
+    if (seed->factor != 0 && !ves_adjoint_mode_begin(shell, which, seed->factor)) return VES_DEGENERATE;
+    a->field[STATE].vector = state_of(shell, which);
     right_fill(shell, which, seed);
     VES_TRY(solve(shell));
-    for (int k = 0; k < FIELDS; k++) memset(a->turn[k], 0, sizeof **a->turn * (size_t)shell->model->nodes);
+    a->field[DUAL].vector = a->solution->x;
+    for (int k = 0; k < a->fields; k++)
+        memset(a->field[k].turn, 0, sizeof *a->field[k].turn * (size_t)shell->model->nodes);
     for (int i = 0, at = 0; i < shell->elements; i++) {
         const shell_element *e = &shell->element[i];
         element_give(shell, e, which, seed, at, g);
         at += shell->kind[e->sheet].lattice.points;
     }
-    directors_give(shell, which, seed, g);
-    rotations_give(shell, which, g);
-    drilling_give(shell, which, g);
+    directors_give(shell, seed, g);
+    rotations_give(shell, g);
+    drilling_give(shell, g);
     points_give(shell, which, seed, g);
     return VES_OK;
 }

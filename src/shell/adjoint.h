@@ -14,7 +14,8 @@ typedef struct ves_shell_seed {
     const double *const (*U)[3], *const (*director)[3];     /* [sheets][s] ves_shell_displacement */
     const double (*stress)[VES_SHELL_LEVELS][VES_STRESSES]; /* [points] of ves_shell_stress, as the rest */
     const double *X[3], *thickness, *area;                  /* [points] */
-    double work;                                            /* of ves_shell_work */
+    double factor; /* of ves_shell_buckling of this case, called before; it must stand alone in its class */
+    double work;   /* of ves_shell_work */
 } ves_shell_seed;
 
 /* Of the loads of one case on one sheet, as ves_shell_load. */
@@ -32,7 +33,7 @@ typedef struct ves_shell_gradient {
     double E, nu;
 } ves_shell_gradient;
 
-/* VES_ABSENT: a sheet of order 1, whose interpolation of strains depends on the element's shape. */
+/* VES_DEGENERATE: seed->factor, and there is no mode of this case. VES_ABSENT: a sheet of order 1, whose interpolation of strains depends on the element's shape. */
 ves_status ves_shell_adjoint(ves_shell *shell, int which, const ves_shell_seed *seed,
                              ves_shell_gradient *gradient);
 

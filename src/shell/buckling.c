@@ -27,6 +27,8 @@ struct shell_buckling {
     double *found, *mode; /* of the class at hand, and the one that is kept */
     int mode_layout;
     int mode_wave; /* > 0: it is complex */
+    int mode_case;
+    double mode_factor, mode_scale;
 };
 
 /* --- what is made once --- */
@@ -111,7 +113,7 @@ void ves_shell_buckling_free(ves_shell *shell)
 
 void ves_shell_buckling_stale(ves_shell *shell)
 {
-    if (shell->buckling) shell->buckling->prepared = -1;
+    if (shell->buckling) shell->buckling->prepared = shell->buckling->mode_layout = -1;
 }
 
 /* --- the matrices of a layout, and of a class --- */
@@ -213,14 +215,15 @@ static ves_status stiffness_solve(void *of, const double *r, double *w)
 
 /* --- classes --- */
 
-static void mode_keep(ves_shell *shell, int index, int wave)
+static void mode_keep(ves_shell *shell, int index, int wave, double factor)
 {
     shell_buckling *b = shell->buckling;
     const shell_layout *layout = &shell->layout[index];
     double most = 0;
     int size = wave > 0 ? 2 : 1;
     memcpy(b->mode, b->found, sizeof *b->mode * (size_t)(size * layout->freedoms));
-    b->mode_layout = index, b->mode_wave = wave;
+    b->mode_layout = isfinite(factor) ? index : -1;
+    b->mode_wave = wave, b->mode_factor = factor, b->mode_case = b->which;
     for (int k = 0; k < shell->model->nodes; k++) {
         const shell_freedom *f = &layout->freedom[k];
         double square = 0;
@@ -229,6 +232,7 @@ static void mode_keep(ves_shell *shell, int index, int wave)
                 square += pow(b->mode[size * (f->first + f->moves[i]) + part], 2);
         if (square > most) most = square;
     }
+    b->mode_scale = sqrt(most);
     for (int k = 0; most > 0 && k < size * layout->freedoms; k++) b->mode[k] /= sqrt(most);
 }
 
@@ -250,10 +254,12 @@ static bool is_loose(const ves_shell *shell, const shell_layout *layout, int siz
 static ves_status class_solve(ves_shell *shell, int which, int index, int wave, ves_shell_buckled *found)
 {
     shell_buckling *b = shell->buckling;
+    static const double VALUE = 1e-4, MODE = 1e-7; /* a gradient errs as much as the mode */
     ves_lanczos_found top;
     VES_TRY(prepare(shell, index, which));
     VES_TRY(class_factor(shell, index, wave));
     const ves_lanczos_pencil pencil = {.n = shell->layout[index].freedoms * (wave > 0 ? 2 : 1),
+                                       .close = shell->model->gradients ? MODE : VALUE,
                                        .of = shell,
                                        .apply = geometric_apply,
                                        .solve = stiffness_solve};
@@ -271,7 +277,7 @@ ves_status ves_shell_buckling_class(ves_shell *shell, int which, int symmetry, i
                                     ves_shell_buckled *found)
 {
     VES_TRY(class_solve(shell, which, symmetry, wave, found));
-    mode_keep(shell, symmetry, wave);
+    mode_keep(shell, symmetry, wave, found->factor);
     return VES_OK;
 }
 
@@ -316,13 +322,26 @@ ves_status ves_shell_buckling(ves_shell *shell, int which, ves_shell_buckled *fo
             above = at.factor > 1.5 * found->factor ? above + 1 : 0;
             if (at.factor < found->factor) {
                 *found = at;
-                mode_keep(shell, index, wave);
+                mode_keep(shell, index, wave, at.factor);
             }
             if (wave >= enough && (above >= RISING || !isfinite(found->factor))) break;
         }
     }
     found->classes = classes, found->solves = solves;
     return VES_OK;
+}
+
+bool ves_shell_mode_kept(const ves_shell *shell, int which, shell_mode *mode)
+{
+    const shell_buckling *b = shell->buckling;
+    if (!b || b->mode_layout < 0 || b->mode_case != which) return false;
+    *mode = (shell_mode){.layout = b->mode_layout,
+                         .parts = b->mode_wave > 0 ? 2 : 1,
+                         .factor = b->mode_factor,
+                         .phase = b->mode_wave * b->angle,
+                         .scale = b->mode_scale,
+                         .vector = b->mode};
+    return true;
 }
 
 void ves_shell_mode(const ves_shell *shell, int sheet, int s, double U[2][3])

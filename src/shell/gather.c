@@ -87,10 +87,9 @@ int ves_shell_rank(const ves_shell *shell, const shell_layout *layout, int node)
 }
 
 /* The axes are those of G = sum of (a_k . t_i) (a_k . t_j), which stays diagonal; t_i goes along by -n (t_i . dn). */
-void ves_shell_drift(const ves_shell *shell, int node, double drift[3])
+void ves_shell_drift(const ves_shell *shell, const shell_layout *layout, int node, double drift[3])
 {
     const ves_shell_node *d = &shell->model->node[node];
-    const shell_layout *layout = &shell->layout[0];
     const double(*t)[3] = (const double(*)[3])layout->pivot[node].axis;
     unsigned held = ves_shell_mask(shell, layout, node);
     double n[3], gap = 0;

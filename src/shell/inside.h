@@ -91,6 +91,13 @@ bool ves_shell_is_far(const ves_shell *shell, int sheet, int s);
 ves_status ves_shell_buckling_make(ves_shell *shell, ves_arena *arena);
 void ves_shell_buckling_free(ves_shell *shell);
 void ves_shell_buckling_stale(ves_shell *shell);
+/* The mode that is kept, if it is of this case: of norm 1 in K, parts in pairs when there are two; phase: to the far side. */
+typedef struct shell_mode {
+    int layout, parts;
+    double factor, phase, scale; /* times vector: of norm 1 */
+    const double *vector;
+} shell_mode;
+bool ves_shell_mode_kept(const ves_shell *shell, int which, shell_mode *mode);
 
 /* rigid.c: VES_LOOSE: some part of it may move as a rigid body. Of the matrix at hand. */
 ves_status ves_shell_held(ves_shell *shell);
@@ -101,7 +108,7 @@ void ves_shell_adjoint_free(ves_shell *shell);
 
 /* gather.c: of a smooth node held about one direction of its tangent plane: by how much the normal's change dn turns its
  * axes within that plane, drift . dn, beside going along with the normal. */
-void ves_shell_drift(const ves_shell *shell, int node, double drift[3]);
+void ves_shell_drift(const ves_shell *shell, const shell_layout *layout, int node, double drift[3]);
 
 /* stress.c */
 extern const double ves_shell_across[VES_SHELL_LEVELS]; /* the shear there over its mean */

@@ -11,7 +11,6 @@
 
 enum { STEPS = VES_LANCZOS_STEPS };
 
-static const double CLOSE = 1e-4; /* relative, of a residual: no eigenvalue is further away */
 /* Of the largest magnitude: less is no eigenvalue that counts. K^-1 B has eigenvalues close to 0, those of modes that are
  * stiff, so where none is positive the largest of the tridiagonal matrix comes up to 0 from below. */
 static const double NONE = 1e-3;
@@ -110,7 +109,7 @@ ves_status ves_lanczos_largest(const ves_lanczos_pencil *of, const ves_lanczos *
         double magnitude, top = ritz(&t, count, &magnitude),
                           far = t.beside[count - 1] * fabs(t.along[count - 1]);
         if (top + far <= NONE * magnitude && top > -NONE * magnitude) return VES_OK;
-        if (far <= CLOSE * top || (ends && count < STEPS)) {
+        if (far <= of->close * top || (ends && count < STEPS)) {
             if (top <= NONE * magnitude) return VES_OK;
             found->value = top;
             cblas_dgemv(CblasRowMajor, CblasTrans, count, of->n, 1, work->basis, of->n, t.along, 1, 0, vector,

@@ -17,13 +17,14 @@ ves_status ves_lanczos_make(size_t n, ves_arena *arena, ves_lanczos *work);
 
 typedef struct ves_lanczos_pencil {
     int n;
+    double close; /* relative, of a residual: no eigenvalue is further away; a lone one errs by its square */
     void *of;
     ves_status (*apply)(void *of, const double *v, double *Bv);
     ves_status (*solve)(void *of, const double *r, double *w); /* w = K^-1 r */
 } ves_lanczos_pencil;
 
 typedef struct ves_lanczos_found {
-    double value; /* within 1e-4 of it is an eigenvalue; 0: none is above 1e-3 of the largest magnitude */
+    double value; /* 0: none is above 1e-3 of the largest magnitude */
     int solves;
 } ves_lanczos_found;
 

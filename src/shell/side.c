@@ -49,6 +49,35 @@ static void surface_pull(const ves_shell *shell, const shell_element *e, const v
     }
 }
 
+/* Of p side u . (u_r x X_s + X_r x u_s). */
+void ves_shell_follow_pull(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                           const shell_side *of, double factor)
+{
+    const double *plane = shell->input->load[of->which * shell->model->sheets + e->sheet].pressure;
+    const ves_shell_points *rule = &body->kind->rule;
+    const int nodes = body->kind->nodes;
+    for (int q = 0; q < rule->points && plane; q++) {
+        const double *N = rule->table.N + q * nodes, *Nr = rule->table.Nr + q * nodes,
+                     *Ns = rule->table.Ns + q * nodes;
+        ves_shell_frame f;
+        double u[3], ur[3], us[3], on_s[3], on_r[3], pressure = 0, scale;
+        ves_shell_frame_at(body, &rule->table, q, &f);
+        at_point(nodes, N, of->U, u);
+        at_point(nodes, Nr, of->U, ur);
+        at_point(nodes, Ns, of->U, us);
+        ves_cross(u, ur, on_s);
+        ves_cross(us, u, on_r);
+        scale = factor * shell->input->side[e->sheet] * rule->weight[q];
+        for (int k = 0; k < nodes; k++) pressure += N[k] * plane[e->s[k]];
+        for (int k = 0; k < nodes; k++) {
+            for (int c = 0; c < 3; c++)
+                of->on_X[k][c] += scale * pressure * (Nr[k] * on_r[c] + Ns[k] * on_s[c]);
+            if (of->load && of->load->pressure)
+                of->load->pressure[e->s[k]] += scale * N[k] * (ves_dot(on_s, f.Xs) + ves_dot(on_r, f.Xr));
+        }
+    }
+}
+
 /* --- edges --- */
 
 enum { LINE = VES_SHELL_ORDER + 1 };
@@ -112,8 +141,8 @@ static void line_pull(const ves_shell *shell, const shell_element *e, const ves_
     }
 }
 
-static void springs_pull(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
-                         const shell_side *of)
+void ves_shell_springs_pull(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                            const shell_side *of)
 {
     for (int i = 0; i < shell->model->springs; i++) {
         const ves_shell_spring *spring = &shell->model->spring[i];
@@ -135,5 +164,5 @@ void ves_shell_loads_pull(const ves_shell *shell, const shell_element *e, const 
 {
     surface_pull(shell, e, body, of);
     for (int edge = 0; edge < VES_SHELL_EDGES; edge++) line_pull(shell, e, body, edge, of);
-    springs_pull(shell, e, body, of);
+    ves_shell_springs_pull(shell, e, body, of);
 }

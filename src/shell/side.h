@@ -16,5 +16,11 @@ typedef struct shell_side {
 } shell_side;
 void ves_shell_loads_pull(const ves_shell *shell, const shell_element *element, const ves_shell_body *body,
                           const shell_side *side);
+/* Springs alone: of - lambda' K u. */
+void ves_shell_springs_pull(const ves_shell *shell, const shell_element *element, const ves_shell_body *body,
+                            const shell_side *side);
+/* Of `factor` times what pressure that follows the surface does on U (shell/geometric.h). */
+void ves_shell_follow_pull(const ves_shell *shell, const shell_element *element, const ves_shell_body *body,
+                           const shell_side *side, double factor);
 
 #endif
