@@ -389,8 +389,8 @@ Test(adjoint, fold_rotates)
     for (int c = 0; c < 3; c++) {
         point[0].force[c] = 100 * (t.X[1][c][last] - t.X[0][c][0]), point[1].force[c] = -point[0].force[c];
         /* six springs, which carry nothing */
-        t.node[3].spring[c] = 1e3, t.node[20].spring[c] = c < 2 ? 1e3 : 0,
-        t.node[35].spring[c] = c > 1 ? 1e3 : 0;
+        t.node[3].spring[c] = 1e6, t.node[20].spring[c] = c < 2 ? 1e6 : 0,
+        t.node[35].spring[c] = c > 1 ? 1e6 : 0;
     }
     for (int end = 0; end < 2; end++) {
         double X[3], turned[3], twice[3];
@@ -402,7 +402,8 @@ Test(adjoint, fold_rotates)
     t.input.points = 2, t.input.point = point, t.model.springs = 0;
     trial_start(&t);
     double got = rotation_work(t.shell, THETA);
-    cr_assert(fabs(got / work - 1) < 1e-7, "%.12g, loads %.12g", got, work);
+    /* rounding, over the 1e-8 by which folds are stiffened */
+    cr_assert(fabs(got / work - 1) < 1e-6, "%.15g, loads %.15g", got, work);
     trial_end(&t);
 }
 
