@@ -51,10 +51,12 @@ ves_status ves_shell_begin(ves_plan *plan, int index, ves_diag *diag)
     shell->solid = wanted(plan, false);
     shell->buckles = buckles(plan);
     if (!shell->solid) return VES_OK;
-    if (index > 0)
-        shell->sector = plan->level[0].shell->sector;
-    else
+    if (index > 0) {
+        shell->sector = plan->level[0].shell->sector, shell->waves = plan->level[0].shell->waves;
+    } else {
+        VES_TRY(ves_shell_rings(plan, shell));
         VES_TRY(ves_shell_sector_find(plan, shell));
+    }
     return ves_shell_mesh(plan, shell, diag);
 }
 

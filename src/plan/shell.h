@@ -36,9 +36,10 @@ struct plan_shell {
     const ves_shell_def *def;
     int level;
     bool buckles; /* some measure asks for its buckling */
-    bool solid; /* some measure asks for its solution; else there is only what the light ones read */
+    bool solid;   /* some measure asks for its solution; else there is only what the light ones read */
     plan_sector sector;
     int waves;             /* around */
+    int folds;             /* how often its rings may come again in themselves; 0: they are round */
     plan_shell_part *part; /* [def->parts] */
     ves_shell_sheet *sheet;
     ves_shell_node *node;
@@ -52,7 +53,7 @@ struct plan_shell {
     const double *(*X)[3], *(*normal)[3], **thickness;
     double *side, (*u_range)[2], (*v_range)[2];
     const ves_formula **formula; /* [patches] of thickness */
-    const unsigned **held; /* [classes] of buckling */
+    const unsigned **held;       /* [classes] of buckling */
     const int **weld;
     const bool **far;
     ves_shell *shell;
@@ -63,6 +64,9 @@ struct plan_shell {
 
 /* The design that is looked at as the k-th; binds it. */
 void ves_shell_design(ves_plan *plan, int k);
+
+/* shell_rings.c: waves and folds */
+ves_status ves_shell_rings(ves_plan *plan, plan_shell *shell);
 
 /* shell_sector.c: at the designs of ves_shell_design */
 ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell);

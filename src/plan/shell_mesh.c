@@ -5,87 +5,7 @@
 
 #include "base/vector.h"
 
-enum { SAMPLES = 256, ROWS = 4, NODES_A_WAVE = 8, NODES_LEAST = 24, WAVES_MOST = 48 };
-
-/* Of the first wave: what is left out of the shape. */
-static const double SEEN = 3e-3;
-
-/* The largest wave around a ring of samples that is seen; n waves of the radius are n - 1 and n + 1 of x and z. */
-static int waves_of(const double *X, int from, int count)
-{
-    int most = 1;
-    double first = 0;
-    for (int n = 1; n <= WAVES_MOST; n++) {
-        double square = 0;
-        for (int c = 0; c < 3; c++) {
-            double re = 0, im = 0;
-            for (int k = 0; k < SAMPLES; k++) {
-                re += X[c * count + from + k] * cos(VES_TWO_PI * (n * k % SAMPLES) / SAMPLES);
-                im += X[c * count + from + k] * sin(VES_TWO_PI * (n * k % SAMPLES) / SAMPLES);
-            }
-            square += re * re + im * im;
-        }
-        if (n == 1) first = square;
-        if (square > SEEN * SEEN * first) most = n;
-    }
-    return most > 2 ? most - 1 : most;
-}
-
-/* Waves of buckling around: those of a cylinder end at (12 (1 - nu^2))^(1/4) sqrt(R / t), and want six nodes each. */
-static int waves_of_buckling(ves_plan *plan, const plan_shell *shell, int part, const double *X,
-                             const double *u, const double *v, int count)
-{
-    const ves_patch_def *d = &plan->problem->patch[shell->def->part[part].patch];
-    double most = 0, nu = plan->block[shell->def->nu];
-    for (int row = 0; row < ROWS; row++) {
-        double mean[3] = {0};
-        for (int k = 0; k < SAMPLES; k++)
-            for (int c = 0; c < 3; c++) mean[c] += X[c * count + row * SAMPLES + k] / SAMPLES;
-        for (int k = row * SAMPLES; k < (row + 1) * SAMPLES; k++) {
-            double r[3], at[VES_SHELL_ARGUMENTS];
-            for (int c = 0; c < 3; c++) at[VES_SHELL_X + c] = X[c * count + k], r[c] = at[c] - mean[c];
-            at[VES_SHELL_U] =
-                d->kind == VES_PATCH_FORMULA ? d->u_range[0] + (d->u_range[1] - d->u_range[0]) * u[k] : u[k];
-            at[VES_SHELL_V] = d->kind == VES_PATCH_FORMULA
-                                  ? d->v_range[0] + (d->v_range[1] - d->v_range[0]) / VES_TWO_PI * v[k]
-                                  : v[k];
-            double t =
-                ves_formula_eval(shell->def->part[part].thickness, plan->block, at, plan->formula_room);
-            if (t > 0) most = fmax(most, sqrt(ves_dot(r, r)) / t);
-        }
-    }
-    double waves = pow(12 * (1 - nu * nu), 0.25) * sqrt(most) * 6 / NODES_A_WAVE;
-    return waves < WAVES_MOST ? (int)ceil(waves) : WAVES_MOST;
-}
-
-/* How many waves the shape has around, of all parts, at the designs that are looked at. */
-static ves_status waves_find(ves_plan *plan, plan_shell *shell)
-{
-    enum { COUNT = SAMPLES * ROWS };
-    double *u = ves_arena_doubles(&plan->arena, COUNT), *v = ves_arena_doubles(&plan->arena, COUNT);
-    double *out = ves_arena_doubles(&plan->arena, (size_t)(3 * VES_POLE_FIELDS * COUNT));
-    if (!u || !v || !out) return VES_MEMORY;
-    for (int k = 0; k < COUNT; k++)
-        u[k] = (k / SAMPLES + 0.5) / ROWS, v[k] = VES_TWO_PI * (k % SAMPLES) / SAMPLES;
-    shell->waves = 1;
-    for (int d = SHELL_DESIGNS - 1; d >= 0; d--) {
-        ves_shell_design(plan, d);
-        for (int p = 0; p < shell->def->parts; p++) {
-            const ves_patch *patch = plan->patch[shell->def->part[p].patch];
-            if (!ves_patch_periodic(patch)) continue;
-            double *room = ves_arena_doubles(&plan->arena, (size_t)ves_patch_point_room(patch));
-            if (!room) return VES_MEMORY;
-            ves_patch_point(patch, &plan->bound, COUNT, u, v, out, room);
-            for (int row = 0; row < ROWS; row++) {
-                int waves = waves_of(out, row * SAMPLES, COUNT);
-                if (waves > shell->waves) shell->waves = waves;
-            }
-            int buckling = shell->buckles && d == 0 ? waves_of_buckling(plan, shell, p, out, u, v, COUNT) : 0;
-            if (buckling > shell->waves) shell->waves = buckling;
-        }
-    }
-    return VES_OK;
-}
+enum { NODES_A_WAVE = 8, NODES_LEAST = 24 };
 
 /* What is chosen where the file says nothing. The annealer's elements are of order 6, graded towards both ends, where shells
  * have layers of length sqrt(R t): on a smooth surface five of them along u err five times less than MITC9's twelve, in the
@@ -234,8 +154,6 @@ ves_status ves_shell_mesh(ves_plan *plan, plan_shell *shell, ves_diag *diag)
     shell->sheet = ves_arena_take(&plan->arena, parts, sizeof *shell->sheet);
     shell->part = ves_arena_take(&plan->arena, parts, sizeof *shell->part);
     if (!shell->sheet || !shell->part) return VES_MEMORY;
-    shell->waves = shell->level ? plan->level[0].shell->waves : 0;
-    if (!shell->waves) VES_TRY(waves_find(plan, shell));
     for (int k = 0; k < shell->def->parts; k++) VES_TRY(sheet_make(plan, shell, k));
     VES_TRY(places_fit(plan, shell, diag));
     for (int k = 0; k < shell->def->parts; k++) VES_TRY(part_make(plan, shell, k));

@@ -9,7 +9,7 @@
 
 #include "base/vector.h"
 
-enum { ALONG = 5, AROUND = 16, PLACES = ALONG * AROUND, FEW = 6, FOLDS = 64, LOW_FOLDS = 8 };
+enum { ALONG = 3, AROUND = 8, PLACES = ALONG * AROUND, FEW = 6, FOLDS = 64, LOW_FOLDS = 8 };
 
 static const double SAME = 1e-9;  /* of the shell's size, or of the largest value */
 static const double STRIP = 1e-3; /* rad: the ring's strip; what it leaves out is of the square of this */
@@ -244,11 +244,11 @@ static bool mirrored_alike(seeker *k, double v0, double normal[3])
 
 /* --- what holds at every design --- */
 
+enum { PLANES = 2 };
+
 typedef struct finding {
-    bool ring, fold[FOLDS + 1],
-        mirror[FOLDS + 1][2]; /* by how many folds; mirror: also a plane at v0 = 0, or at a
-                                                         quarter of a fold */
-    bool any;
+    int folds;
+    bool ring, fold, mirror[PLANES], any; /* mirror: a plane at v = 0, or at a quarter of a fold */
 } finding;
 
 static double mirror_at(int folds, int which)
@@ -261,12 +261,10 @@ static void look(seeker *k, finding *f)
     likeness l;
     double normal[3];
     f->ring = f->ring && turned_alike(k, 1, &l) && turned_alike(k, 2.4, &l);
-    for (int n = 1; n <= FOLDS; n++) {
-        f->fold[n] = f->fold[n] && (n == 1 || f->ring || turned_alike(k, VES_TWO_PI / n, &l));
-        for (int w = 0; w < 2; w++)
-            f->mirror[n][w] =
-                f->mirror[n][w] && f->fold[n] && !f->ring && mirrored_alike(k, mirror_at(n, w), normal);
-    }
+    f->fold = f->fold && (f->ring || turned_alike(k, VES_TWO_PI / f->folds, &l));
+    for (int w = 0; w < PLANES; w++)
+        f->mirror[w] =
+            f->mirror[w] && (w == 0 || f->fold) && mirrored_alike(k, mirror_at(f->folds, w), normal);
 }
 
 static bool possible(const ves_plan *plan, const plan_shell *shell)
@@ -284,19 +282,17 @@ static bool low_order(const plan_shell *shell)
     return def->mesh.order && def->mesh.order < VES_SHELL_FULL;
 }
 
-static void sector_fill(seeker *k, finding *f, plan_sector *s)
+static void sector_fill(seeker *k, const finding *f, plan_sector *s)
 {
-    int n = FOLDS;
-    double normal[3];
-    while (n > 1 && !f->fold[n]) n--;
-    bool plane = f->mirror[n][0] || f->mirror[n][1];
+    int n = f->fold ? f->folds : 1;
+    bool plane = f->mirror[0] || f->mirror[1];
     s->ring = f->ring && !low_order(k->shell);
-    if (f->ring && !s->ring) n = LOW_FOLDS, plane = f->mirror[n][0] = mirrored_alike(k, 0, normal);
+    if (f->ring && !s->ring) n = LOW_FOLDS;
     if (!s->ring && n == 1 && !plane) return;
     /* Modes of buckling that go round are in no half of a sector, but where there are no more than two. */
     if (k->shell->buckles && n > 2) plane = false;
     s->whole = false, s->mirrored = !s->ring && plane, s->folds = s->ring ? (int)(VES_TWO_PI / STRIP) : n;
-    s->from = s->mirrored ? mirror_at(n, !f->mirror[n][0]) : 0;
+    s->from = s->mirrored ? mirror_at(n, !f->mirror[0]) : 0;
     s->to = s->from + (s->ring ? STRIP : s->mirrored ? VES_PI / n : VES_TWO_PI / n);
     s->copies = VES_TWO_PI / (s->to - s->from);
     rotation(k->axis, s->to - s->from, s->turn);
@@ -313,12 +309,13 @@ ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell)
 {
     plan_sector *s = &shell->sector;
     seeker k = {.plan = plan, .shell = shell};
-    finding f = {.ring = true};
+    bool round = shell->folds == 0;
+    int folds = round ? LOW_FOLDS : shell->folds < FOLDS ? shell->folds : FOLDS;
+    finding f = {folds, round, round || folds > 1, {true, true}, false};
     long room = 0;
     *s = (plan_sector){
         .whole = true, .to = VES_TWO_PI, .folds = 1, .copies = 1, .share = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     if (!possible(plan, shell)) return VES_OK;
-    for (int n = 1; n <= FOLDS; n++) f.fold[n] = f.mirror[n][0] = f.mirror[n][1] = true;
     for (int p = 0; p < shell->def->parts; p++) {
         long own = ves_patch_point_room(plan->patch[shell->def->part[p].patch]);
         if (own > room) room = own;

@@ -305,9 +305,10 @@ static void sector_hold(const plan_shell *shell, unsigned odd, hold *h)
 
 static ves_status refuse(const plan_shell *shell, ves_diag *diag)
 {
-    return ves_diag_add(diag, VES_ERROR, VES_RANGE, shell->def->support[0].mark,
-                        "supports of the shell that meet at one place hold it along or about axes that are askew to each "
-                        "other: fix: all there, or mirror planes at right angles");
+    return ves_diag_add(
+        diag, VES_ERROR, VES_RANGE, shell->def->support[0].mark,
+        "supports of the shell that meet at one place hold it along or about axes that are askew to each "
+        "other: fix: all there, or mirror planes at right angles");
 }
 
 /* What is held, in the frame that there is. False: an axis of it partly. */
@@ -315,7 +316,8 @@ static bool mask_make(hold *h, const ves_shell_node *node, unsigned *held)
 {
     *held = 0;
     for (int k = 0; k < 3; k++) {
-        double moves = within(h->move, h->moves, node->frame[k]), turns = within(h->turn, h->turns, node->frame[k]);
+        double moves = within(h->move, h->moves, node->frame[k]),
+               turns = within(h->turn, h->turns, node->frame[k]);
         if (moves > 1e-6 && moves < 1 - 1e-6) return false;
         if (turns > 1e-6 && turns < 1 - 1e-6) return false;
         if (moves > 0.5) *held |= 1u << k;
@@ -337,7 +339,8 @@ static ves_status classes_hold(ves_plan *plan, plan_shell *shell, hold *h, ves_d
         if (!held) return VES_MEMORY;
         memset(h, 0, sizeof *h * (size_t)shell->nodes);
         sector_hold(shell, odd[c], h);
-        for (int k = 0; k < shell->def->supports; k++) support_spread(plan, shell, &shell->def->support[k], h);
+        for (int k = 0; k < shell->def->supports; k++)
+            support_spread(plan, shell, &shell->def->support[k], h);
         for (int k = 0; k < shell->nodes; k++)
             if (!mask_make(&h[k], &shell->node[k], &held[k])) return refuse(shell, diag);
         shell->held[c] = held;
