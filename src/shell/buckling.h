@@ -28,8 +28,8 @@ int ves_shell_waves(
 ves_status ves_shell_buckling_class(ves_shell *shell, int which, int symmetry, int wave,
                                     ves_shell_buckled *found);
 
-/* Until the next solve: displacement of node s in the mode that was found last, real and imaginary part; the largest is of length 1. In copy
- * c of a sector, turned c times, it is Re (exp(i c 2 pi wave / N) (U[0] + i U[1])). */
+/* Until the next solve: displacement of node s in the mode that was found last, real and imaginary part; the largest is
+ * of length 1. In copy c of a sector, turned c times, it is Re (exp(i c 2 pi wave / N) (U[0] + i U[1])). */
 void ves_shell_mode(const ves_shell *shell, int sheet, int s, double U[2][3]);
 
 #endif
