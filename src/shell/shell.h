@@ -120,9 +120,6 @@ double ves_shell_length(ves_shell *shell, const ves_shell_input *input, int shee
 /* The mean displacement along an edge. */
 void ves_shell_edge_mean(ves_shell *shell, int which, int sheet, int edge, double U[3]);
 
-/* The forces with which supports and springs of the nodes of an edge hold it, summed, N. */
-void ves_shell_reaction(ves_shell *shell, int which, int sheet, int edge, double force[3]);
-
 /* Stresses at the lattice of all elements. [points], point by point of element by element. */
 enum { VES_SHELL_LEVELS = 3 }; /* z = -1, 0, +1 */
 typedef struct ves_shell_stresses {
