@@ -53,7 +53,7 @@ static void data(deck *d, const char *word, const char *line)
         cr_assert(end - at <= 20, "CalculiX reads 20 characters of a number: %s", line);
         at = *end == ',' ? end + 1 : NULL;
     }
-    int node = (int)value[0] - 1;
+    int node = fabs(value[0]) < 1e9 ? (int)value[0] - 1 : -1; /* else it is no number of a node */
     if (!strcmp(word, "*NODE")) {
         cr_assert(node == d->nodes && node < NODES, "%s", line);
         memcpy(d->point[d->nodes++], value + 1, sizeof *d->point);

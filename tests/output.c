@@ -344,9 +344,10 @@ Test(output, csv_gives_back_every_number)
 /* The ball as a shell that nothing holds or loads, so that every format has something to write. */
 static void shape_shell(ves_figure *figure)
 {
-    static double thickness[13 * 40], *plane[1] = {thickness};
-    static const bool uniform[1] = {true};
+    static double thickness[13 * 40], *plane[4] = {thickness, thickness, thickness, thickness};
+    static const bool uniform[4] = {true, true, true, true};
     static ves_figure_shell shell;
+    cr_assert(figure->patches <= 4);
     shell = (ves_figure_shell){.E = 1, .nu = .3, .density = NAN, .thickness = plane, .uniform = uniform};
     figure->shell = &shell;
 }
