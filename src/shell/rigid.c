@@ -11,7 +11,7 @@
 
 enum { MOTIONS = 6 };
 
-static const double ROUNDING = 1e-11;
+static const double ROUNDING = 1e-15;
 
 typedef struct motions {
     double *vector[MOTIONS], *product; /* [freedoms] */
