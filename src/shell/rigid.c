@@ -78,7 +78,7 @@ static void motion_fill(const ves_shell *shell, const int *part, int which, cons
     }
 }
 
-/* K b, of the lower triangle. */
+/* K b, of the lower triangle; without what folds have against drilling, on which no rigid motion may lean. */
 static void product(const ves_shell *shell, const double *b, double *out)
 {
     const int *p = shell->layout[0].matrix->p, *row = shell->layout[0].matrix->i;
@@ -87,6 +87,12 @@ static void product(const ves_shell *shell, const double *b, double *out)
     for (int j = 0; j < shell->layout[0].freedoms; j++) {
         out[j] += x[p[j]] * b[j];
         for (int k = p[j] + 1; k < p[j + 1]; k++) out[j] += x[k] * b[row[k]], out[row[k]] += x[k] * b[j];
+    }
+    for (int node = 0; node < shell->model->nodes; node++) {
+        const shell_freedom *f = &shell->layout[0].freedom[node];
+        for (int i = 0; i < 3 && shell->model->node[node].fold; i++)
+            if (f->turns[i] >= 0)
+                out[f->first + f->turns[i]] -= ves_shell_drilling(shell, node) * b[f->first + f->turns[i]];
     }
 }
 
