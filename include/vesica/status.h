@@ -33,6 +33,7 @@ extern "C" {
     X(BROKEN, 18, "a check of the file does not hold")                                                       \
     X(LOOSE, 19, "the supports of the shell let it move without strain")                                     \
     X(NO_CONVERGENCE, 20, "an eigenvalue was not found in the steps that there are")                         \
+    X(NO_WALL, 21, "the wall of the shell has no thickness somewhere")                                       \
     X(SYNTAX, -1, "the text cannot be read")                                                                 \
     X(NAME, -2, "a name is not known")                                                                       \
     X(UNIT, -3, "a dimension does not fit")                                                                  \

@@ -190,12 +190,20 @@ void ves_shell_end(ves_plan *plan)
 
 /* --- solving --- */
 
+static bool has_walls(const plan_shell *shell)
+{
+    for (int k = 0; k < shell->def->parts; k++)
+        for (int s = 0; s < shell->part[k].count; s++)
+            if (!(shell->part[k].thickness[s] > 0)) return false;
+    return true;
+}
+
 ves_status ves_shell_run(ves_plan *plan, int index)
 {
     plan_shell *shell = plan->level[index].shell;
     if (shell->solved) return shell->outcome;
     input_fill(plan, shell);
-    shell->outcome = ves_shell_solve(shell->shell, &shell->input);
+    shell->outcome = has_walls(shell) ? ves_shell_solve(shell->shell, &shell->input) : VES_NO_WALL;
     shell->solved = true;
     return shell->outcome;
 }

@@ -245,12 +245,13 @@ void ves_describe_limits(ves_writer *writer, const ves_key *key)
 static void sample(ves_writer *writer, const ves_key *key)
 {
     static const char *const text[] = {
-        "",          "",       "[0, 0, 1]",
-        "2",         "[2, 1]", "[[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]",
-        "[[1, p1]]", "",       "true",
-        "",          "text",   "p1",
-        "p1",        "[wall]", "[\"cos(v)\", \"sin(v)\", \"0\"]",
-        "\"H^2\"",   "stack",  "p1",   "\"u > 0.1\""};
+        "",           "",       "[0, 0, 1]",
+        "2",          "[2, 1]", "[[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]",
+        "[[1, p1]]",  "",       "true",
+        "",           "text",   "p1",
+        "p1",         "[wall]", "[\"cos(v)\", \"sin(v)\", \"0\"]",
+        "\"H^2\"",    "stack",  "p1",
+        "\"u > 0.1\""};
     if (number_kind(key))
         ves_write(writer, "%g", key->min > 1 ? ceil(key->min / 2) * 2 : 1.0);
     else if (key->kind == VES_CHOICE)
@@ -292,6 +293,18 @@ const char *ves_describe_status(ves_status status)
                "Narrower ranges\n      help; validity: {jacobian: any} lets such shapes pass.";
     case VES_INVERTED:
         return "The volume is negative: curves have changed places. Narrow the ranges so that they cannot.";
+    case VES_LOOSE:
+        return "A part of the shell may move as a rigid body: hold it in more directions (shell: {supports: "
+               "...}), or join "
+               "it to what is\n      held.";
+    case VES_NO_WALL:
+        return "The formula of a part's thickness is 0 or less at some node of the shell. Keep it positive "
+               "by the ranges of "
+               "its\n      variables.";
+    case VES_NO_CONVERGENCE:
+        return "Lanczos' steps were used up before a factor of buckling had settled: its modes lie close "
+               "together. A "
+               "coarser mesh, or\n      symmetry: none, may help.";
     case VES_NARROW:
         return "Asked for by validity: {least_radius: ...}.";
     case VES_NOT_MONOTONE:
