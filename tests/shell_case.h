@@ -16,6 +16,7 @@ typedef void case_surface(const shell_case *of, double u, double v, double X[3])
 
 struct shell_case {
     case_surface *surface;
+    case_surface *across; /* the unit normal, or NULL: by differences */
     const double *number; /* what the surface is made of */
     double u[2], v[2];    /* ranges */
     int order, elements[2];
@@ -43,6 +44,10 @@ struct shell_case {
 /* Normal by differences of order 4: about 1e-11. */
 static inline void case_normal(const shell_case *c, double u, double v, double n[3])
 {
+    if (c->across) {
+        c->across(c, u, v, n);
+        return;
+    }
     const double h[2] = {1e-3 * (c->u[1] - c->u[0]), 1e-3 * (c->v[1] - c->v[0])};
     double T[2][3] = {{0}};
     static const double W[4] = {1 / 12., -8 / 12., 8 / 12., -1 / 12.}, D[4] = {-2, -1, 1, 2};
@@ -132,6 +137,22 @@ static inline void case_hold(shell_case *c, int edge, unsigned held)
 {
     for (int k = 0; k < ves_shell_edge_count(&c->sheet, edge); k++)
         c->node[ves_shell_edge_node(&c->sheet, edge, k)].held |= held;
+}
+
+/* A mirror plane with any normal. */
+static inline void case_mirror(shell_case *c, int edge, const double normal[3])
+{
+    double e[3] = {fabs(normal[0]) < 0.5, fabs(normal[0]) >= 0.5, 0}, t[2][3];
+    ves_cross(normal, e, t[0]);
+    double length = sqrt(ves_dot(t[0], t[0]));
+    for (int i = 0; i < 3; i++) t[0][i] /= length;
+    ves_cross(normal, t[0], t[1]);
+    for (int k = 0; k < ves_shell_edge_count(&c->sheet, edge); k++) {
+        ves_shell_node *node = &c->node[ves_shell_edge_node(&c->sheet, edge, k)];
+        memcpy(node->frame[0], normal, sizeof node->frame[0]);
+        memcpy(node->frame[1], t, sizeof t);
+        node->held |= MIRROR_X;
+    }
 }
 
 static inline void case_push(shell_case *c, int s, double x, double y, double z)
