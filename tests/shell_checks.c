@@ -272,8 +272,8 @@ static void patch_make(patch *a, int order, int split, bool even)
     for (int cell = 0; cell < patch_cells(a); cell++) patch_cell(a, cell);
     int n = FREE * a->nodes;
     cr_assert(n <= PATCH);
-    a->K = ves_arena_doubles(&a->p.arena, (size_t)(n * n));
-    a->u = ves_arena_doubles(&a->p.arena, (size_t)n);
+    a->K = ves_arena_take(&a->p.arena, (size_t)(n * n), sizeof *a->K);
+    a->u = ves_arena_take(&a->p.arena, (size_t)n, sizeof *a->u);
     for (int cell = 0; cell < patch_cells(a); cell++) {
         patch_cell(a, cell);
         piece_stiffness(&a->p);
