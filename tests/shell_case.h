@@ -149,8 +149,8 @@ static inline void case_mirror(shell_case *c, int edge, const double normal[3])
     ves_cross(normal, t[0], t[1]);
     for (int k = 0; k < ves_shell_edge_count(&c->sheet, edge); k++) {
         ves_shell_node *node = &c->node[ves_shell_edge_node(&c->sheet, edge, k)];
-        memcpy(node->frame[0], normal, sizeof node->frame[0]);
-        memcpy(node->frame[1], t, sizeof t);
+        for (int i = 0; i < 3; i++)
+            node->frame[0][i] = normal[i], node->frame[1][i] = t[0][i], node->frame[2][i] = t[1][i];
         node->held |= MIRROR_X;
     }
 }
