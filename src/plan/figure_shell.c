@@ -15,7 +15,6 @@ typedef struct maker {
     ves_figure *figure;
     ves_figure_shell *shell;
     const ves_shell_def *def;
-    double *room; /* of the formulas */
 } maker;
 
 /* Keeps the first reason; NULL: there was no memory to write it. */
@@ -52,7 +51,7 @@ static double value_at(const maker *m, const ves_formula *formula, int k, int no
 {
     double at[VES_SHELL_ARGUMENTS];
     arguments(m, k, node, at);
-    return ves_formula_eval(formula, m->plan->block, at, m->room);
+    return ves_formula_eval(formula, m->plan->block, at, m->plan->formula_room);
 }
 
 static ves_status plane_make(const maker *m, int k, double **plane)
@@ -68,22 +67,6 @@ static ves_status plane_of(const maker *m, const ves_formula *formula, int k, do
     VES_TRY(plane_make(m, k, plane));
     for (int s = 0; s < nodes_of(&m->figure->patch[k]); s++) (*plane)[s] = value_at(m, formula, k, s);
     return VES_OK;
-}
-
-static void room_count(const ves_formula *formula, int *most)
-{
-    if (formula && ves_formula_room(formula) > *most) *most = ves_formula_room(formula);
-}
-
-static ves_status room_make(maker *m)
-{
-    int most = 1;
-    for (int k = 0; k < m->def->parts; k++) room_count(m->def->part[k].thickness, &most);
-    for (int k = 0; k < m->def->cases; k++)
-        for (int n = 0; n < m->def->load_case[k].loads; n++)
-            for (int c = 0; c < 3; c++) room_count(m->def->load_case[k].load[n].formula[c], &most);
-    m->room = ves_arena_doubles(&m->figure->arena, (size_t)most);
-    return m->room ? VES_OK : VES_MEMORY;
 }
 
 /* --- places --- */
@@ -319,13 +302,12 @@ ves_status ves_figure_shell_make(const ves_plan *plan, ves_figure *figure)
 {
     const ves_shell_def *def = plan->problem->shell;
     if (!def) return VES_OK;
-    maker m = {plan, figure, ves_arena_take(&figure->arena, 1, sizeof *m.shell), def, NULL};
+    maker m = {plan, figure, ves_arena_take(&figure->arena, 1, sizeof *m.shell), def};
     if (!m.shell) return VES_MEMORY;
     *m.shell = (ves_figure_shell){.E = plan->block[def->E],
                                   .nu = plan->block[def->nu],
                                   .density = def->density < 0 ? NAN : plan->block[def->density]};
     figure->shell = m.shell;
-    VES_TRY(room_make(&m));
     VES_TRY(parts_make(&m));
     return grids_good(&m) ? loads_make(&m) : VES_OK;
 }

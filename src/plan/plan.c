@@ -79,6 +79,11 @@ static int formula_room(const ves_problem *p)
         ROOM(p->solve->right);
     }
     if (p->scale) ROOM(p->scale->target);
+    const ves_shell_def *shell = p->shell;
+    for (int k = 0; shell && k < shell->parts; k++) ROOM(shell->part[k].thickness);
+    for (int k = 0; shell && k < shell->cases; k++)
+        for (int n = 0; n < shell->load_case[k].loads; n++)
+            for (int c = 0; c < 3; c++) ROOM(shell->load_case[k].load[n].formula[c]);
 #undef ROOM
     return most;
 }
