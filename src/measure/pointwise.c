@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "base/vector.h"
+#include "base/domain.h"
 #include "formula/formula.h"
 #include "measure/principal.h"
 #include "measure/summit.h"
@@ -53,8 +53,7 @@ static ves_principal fill(const ves_pointwise *p, const ves_samples *s, int n, d
         k = ves_principal_init(s->H[n], s->K[n]);
         at[AT_H] = s->H[n], at[AT_K] = s->K[n], at[AT_K1] = k.k1, at[AT_K2] = k.k2;
     }
-    at[AT_U] = s->u_range[0] + (s->u_range[1] - s->u_range[0]) * s->u[n % s->nu];
-    at[AT_V] = s->v_range[0] + (s->v_range[1] - s->v_range[0]) / VES_TWO_PI * s->v[n / s->nu];
+    ves_domain_at(s->u_range, s->v_range, s->u[n % s->nu], s->v[n / s->nu], &at[AT_U]);
     return k;
 }
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/domain.h"
 #include "formula/formula.h"
 #include "measure/argument.h"
 #include "measure/power.h"
@@ -43,10 +44,9 @@ typedef struct place {
 
 static void place_at(const ves_measure_input *input, const ves_shell_stresses *s, int k, place *p)
 {
-    const double *u = input->shell->u_range[s->sheet[k]], *v = input->shell->v_range[s->sheet[k]];
+    int sheet = s->sheet[k];
     for (int c = 0; c < 3; c++) p->at[AT_X + c] = s->X[c][k];
-    p->at[AT_U] = u[0] + (u[1] - u[0]) * s->u[k];
-    p->at[AT_V] = v[0] + (v[1] - v[0]) / VES_TWO_PI * s->v[k];
+    ves_domain_at(input->shell->u_range[sheet], input->shell->v_range[sheet], s->u[k], s->v[k], &p->at[AT_U]);
     p->at[AT_THICKNESS] = s->thickness[k];
     memcpy(p->stress, s->stress[k], sizeof p->stress);
 }

@@ -39,12 +39,8 @@ static int nodes_of(const ves_figure_patch *p)
 static void arguments(const maker *m, int k, int node, double at[VES_SHELL_ARGUMENTS])
 {
     const ves_figure_patch *p = &m->figure->patch[k];
-    const ves_patch_def *d = &m->plan->problem->patch[k];
-    bool own = d->kind == VES_PATCH_FORMULA;
-    double u = ves_figure_u(p, node), v = ves_figure_v(p, node);
     for (int c = 0; c < 3; c++) at[VES_SHELL_X + c] = p->X[c][node];
-    at[VES_SHELL_U] = own ? d->u_range[0] + (d->u_range[1] - d->u_range[0]) * u : u;
-    at[VES_SHELL_V] = own ? d->v_range[0] + (d->v_range[1] - d->v_range[0]) / VES_TWO_PI * v : v;
+    ves_plan_domain_at(m->plan, k, ves_figure_u(p, node), ves_figure_v(p, node), &at[VES_SHELL_U]);
 }
 
 static double value_at(const maker *m, const ves_formula *formula, int k, int node)

@@ -170,6 +170,9 @@ ves_status ves_site_sample(ves_plan *plan, plan_site *s, unsigned needs, bool gr
 ves_status ves_site_scatter(ves_plan *plan, plan_site *s, double *by_similarity);
 void ves_site_gather(ves_plan *plan, plan_site *s);
 
+/* sites.c: what formulas over a patch mean by a place of it */
+void ves_plan_domain_at(const ves_plan *plan, int patch, double u, double v, double at[2]);
+
 /* bind.c: x -> block -> curves -> patches, and back. What is bound has no similarity yet. */
 void ves_plan_bind(ves_plan *plan, const double *x, double unknown);
 void ves_plan_bind_patches(ves_plan *plan);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/vector.h"
+#include "base/domain.h"
 
 /* Does any load of a case act so on this part? Gravity and forces per area share their planes. */
 static bool acts(const ves_load_def *load, int part, bool pressure)
@@ -73,8 +73,7 @@ double ves_shell_formula(ves_plan *plan, const plan_shell *shell, int part, int 
     const ves_samples *m = &plan->level[shell->level].site[p->site].samples;
     double at[VES_SHELL_ARGUMENTS];
     for (int c = 0; c < 3; c++) at[VES_SHELL_X + c] = m->X[c][s];
-    at[VES_SHELL_U] = m->u_range[0] + (m->u_range[1] - m->u_range[0]) * m->u[s % m->nu];
-    at[VES_SHELL_V] = m->v_range[0] + (m->v_range[1] - m->v_range[0]) / VES_TWO_PI * m->v[s / m->nu];
+    ves_domain_at(m->u_range, m->v_range, m->u[s % m->nu], m->v[s / m->nu], &at[VES_SHELL_U]);
     return ves_formula_eval(formula, plan->block, at, plan->formula_room);
 }
 

@@ -102,12 +102,9 @@ static int folds_of(const double *const X[3], int folds, double *largest)
 /* Waves of buckling around: those of a cylinder end at (12 (1 - nu^2))^(1/4) sqrt(R / t), and want six nodes each. */
 static int waves_of_buckling(ves_plan *plan, const plan_shell *shell, int part, double R)
 {
-    const ves_patch_def *d = &plan->problem->patch[shell->def->part[part].patch];
     double nu = plan->block[shell->def->nu], at[VES_SHELL_ARGUMENTS] = {0}, least = HUGE_VAL;
     for (int k = 0; k <= ROWS; k++) {
-        at[VES_SHELL_U] = (double)k / ROWS;
-        if (d->kind == VES_PATCH_FORMULA)
-            at[VES_SHELL_U] = d->u_range[0] + (d->u_range[1] - d->u_range[0]) * k / ROWS;
+        ves_plan_domain_at(plan, shell->def->part[part].patch, (double)k / ROWS, 0, &at[VES_SHELL_U]);
         double t = ves_formula_eval(shell->def->part[part].thickness, plan->block, at, plan->formula_room);
         if (t > 0) least = fmin(least, t);
     }

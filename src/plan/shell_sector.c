@@ -92,12 +92,8 @@ static bool measure(seeker *k)
 static double formula_at(const seeker *k, int part, const double *X, int i, double v,
                          const ves_formula *formula)
 {
-    const ves_patch_def *d = &k->plan->problem->patch[k->shell->def->part[part].patch];
-    double at[VES_SHELL_ARGUMENTS] = {X[i], X[k->places + i], X[2 * k->places + i], k->u[i], v};
-    if (d->kind == VES_PATCH_FORMULA) {
-        at[VES_SHELL_U] = d->u_range[0] + (d->u_range[1] - d->u_range[0]) * k->u[i];
-        at[VES_SHELL_V] = d->v_range[0] + (d->v_range[1] - d->v_range[0]) / VES_TWO_PI * v;
-    }
+    double at[VES_SHELL_ARGUMENTS] = {X[i], X[k->places + i], X[2 * k->places + i]};
+    ves_plan_domain_at(k->plan, k->shell->def->part[part].patch, k->u[i], v, &at[VES_SHELL_U]);
     return ves_formula_eval(formula, k->plan->block, at, k->plan->formula_room);
 }
 

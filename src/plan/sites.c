@@ -1,5 +1,5 @@
 /* Sites: sampling a shape at the places that level.c has laid out, and the transpose of it. */
-#include "base/vector.h"
+#include "base/domain.h"
 #include "plan/inside.h"
 
 #include <math.h>
@@ -81,6 +81,22 @@ static unsigned chart_fields(const ves_plan *plan, plan_site *s, ves_site kind)
     return s->pole[0] || s->pole[1] ? AT_POLE : fields_for(s->wants);
 }
 
+/* That of a patch's own formulas, else 0 .. 1 and 0 .. 2 pi; a curve is no patch. */
+static void domain(const ves_plan *plan, int patch, double u_range[2], double v_range[2])
+{
+    const ves_patch_def *d = patch >= 0 ? &plan->problem->patch[patch] : NULL;
+    bool own = d && d->kind == VES_PATCH_FORMULA;
+    u_range[0] = own ? d->u_range[0] : 0, u_range[1] = own ? d->u_range[1] : 1;
+    v_range[0] = own ? d->v_range[0] : 0, v_range[1] = own ? d->v_range[1] : VES_TWO_PI;
+}
+
+void ves_plan_domain_at(const ves_plan *plan, int patch, double u, double v, double at[2])
+{
+    double u_range[2], v_range[2];
+    domain(plan, patch, u_range, v_range);
+    ves_domain_at(u_range, v_range, u, v, at);
+}
+
 /* Completes a site whose kind, grid and needs are known. */
 ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind)
 {
@@ -94,13 +110,8 @@ ves_status ves_site_finish(ves_plan *plan, plan_site *s, ves_site kind)
                        .u = s->grid.u,
                        .v = s->grid.v,
                        .weight = s->grid.weight};
-    m->u_range[1] = 1, m->v_range[1] = VES_TWO_PI;
+    domain(plan, s->patch, m->u_range, m->v_range);
     if (s->patch >= 0) {
-        const ves_patch_def *d = &plan->problem->patch[s->patch];
-        if (d->kind == VES_PATCH_FORMULA) {
-            memcpy(m->u_range, d->u_range, sizeof d->u_range);
-            memcpy(m->v_range, d->v_range, sizeof d->v_range);
-        }
         s->varies = ves_patch_varies(plan->patch[s->patch]) || plan->problem->scale || plan->displaced;
         VES_TRY(ves_chart_create(plan->patch[s->patch], &s->grid, chart_fields(plan, s, kind), &plan->arena,
                                  &s->chart));

@@ -38,13 +38,12 @@ static void spot_tell(const ves_plan *plan, ves_severity severity, const spot *a
                       ves_diag *diag)
 {
     const ves_patch_def *d = &plan->problem->patch[at->patch];
-    bool own = d->kind == VES_PATCH_FORMULA;
-    double u = own ? d->u_range[0] + (d->u_range[1] - d->u_range[0]) * at->u : at->u,
-           v = own ? d->v_range[0] + (d->v_range[1] - d->v_range[0]) / VES_TWO_PI * at->v : at->v;
+    double own[2];
+    ves_plan_domain_at(plan, at->patch, at->u, at->v, own);
     const char axis = "xyz"[at->c];
     ves_diag_add(diag, severity, VES_NO_POINT, d->mark,
                  "%s: %c of patch \"%s\" is not a finite number (at u = %.4g, v = %.4g)", what, axis, d->name,
-                 u, v);
+                 own[0], own[1]);
 }
 
 static bool spot_at(const ves_plan *plan, double *room, spot *at)

@@ -1,6 +1,4 @@
-#include <math.h>
-
-#include "base/vector.h"
+#include "base/domain.h"
 #include "formula/formula.h"
 #include "shell/view.h"
 #include "vesica/measure.h"
@@ -11,8 +9,7 @@ enum { AT_X, AT_Y, AT_Z, AT_U, AT_V, NAMES };
 static void place(const ves_samples *s, int n, double at[NAMES])
 {
     for (int c = 0; c < 3; c++) at[AT_X + c] = s->X[c][n];
-    at[AT_U] = s->u_range[0] + (s->u_range[1] - s->u_range[0]) * s->u[n % s->nu];
-    at[AT_V] = s->v_range[0] + (s->v_range[1] - s->v_range[0]) / VES_TWO_PI * s->v[n / s->nu];
+    ves_domain_at(s->u_range, s->v_range, s->u[n % s->nu], s->v[n / s->nu], &at[AT_U]);
 }
 
 static size_t room(const ves_measure_input *input)
