@@ -26,8 +26,8 @@ static inline const char *path_of(const char *name)
 
 static inline void clean(void)
 {
-    static const char *const names[] = {"a.stl", "a.obj", "a.ply", "a.off", "a.vtp", "a.csv",
-                                        "a.png", "a.svg", "a.pdf", "a.inp", "b.png", "log", ""};
+    static const char *const names[] = {"a.stl", "a.obj", "a.ply", "a.off", "a.vtp", "a.csv", "a.png",
+                                        "a.svg", "a.pdf", "a.inp", "b.png", "log",   ""};
     for (size_t k = 0; k < sizeof names / sizeof *names; k++) remove(path_of(names[k]));
 }
 

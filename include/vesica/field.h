@@ -32,9 +32,9 @@ typedef enum ves_kind {
     VES_PATCHES,    /* list of names of patches */
     VES_FORMULAS,   /* internal: three formulas of the surface coordinates */
     VES_POINTWISE,  /* internal: one formula of x, y, z, H, K, k1, k2, u, v at a point of the surface */
-    VES_CASE,       /* a load case of the shell; may be left out when there is but one, and is answered then too */
+    VES_CASE, /* a load case of the shell; may be left out when there is but one, and is answered then too */
     VES_SHELL_AT, /* a curve that parts of the shell end on, an edge of a part (wall.u0), or a place on one */
-    VES_SHELLWISE  /* internal: one formula of x, y, z, u, v, thickness at a point of the shell */
+    VES_SHELLWISE /* internal: one formula of x, y, z, u, v, thickness at a point of the shell */
 } ves_kind;
 
 /* As the least value of a key: greater than 0. The smallest normal number, so that ranges stay closed. */
@@ -59,9 +59,9 @@ typedef struct ves_key {
 typedef struct ves_arg {
     bool given; /* false: the fallback stands */
     ves_mark mark;
-    int first, count;                         /* number kinds; formula kinds and references use count alone */
-    int value; /* COUNT, FLAG, CHOICE; CASE, SHELL_AT: which one, -1: not given */
-    const char *text;                         /* TEXT */
+    int first, count; /* number kinds; formula kinds and references use count alone */
+    int value;        /* COUNT, FLAG, CHOICE; CASE, SHELL_AT: which one, -1: not given */
+    const char *text; /* TEXT */
     const struct ves_formula *const *formula; /* FORMULAS (three), POINTWISE (one) */
     const int *ref;                           /* CURVE, TERMS: curves; PATCHES: patches; PLACE: see place */
     bool place;                               /* PLACE: ref[0] is a place (true) or a curve (false) */

@@ -95,7 +95,7 @@ typedef struct ves_measure_input {
      * cone. What a look was filled with last in eval is what gradient finds. It costs a quarter of what 16 x
      * 32 nodes of a patch cost. input is the very one that eval was called with, no copy. */
     int (*look)(const struct ves_measure_input *input, int i, int k, const double u[3], const double v[3]);
-    int first_look; /* index of the first sample of looks */
+    int first_look;                     /* index of the first sample of looks */
     const struct ves_shell_view *shell; /* internal, of built-in measures with `shell`: the solved shell */
 } ves_measure_input;
 
@@ -169,7 +169,7 @@ typedef struct ves_measure {
     double most;         /* no surface has more: a constraint that asks for it is refused. 0: not known */
     const char *most_of; /* what has it: "a sphere" */
     bool shell;          /* is of the shell: the reader refuses it in a file without `shell` */
-    bool buckles;        /* with it: its buckling is asked for, which needs more of its symmetry than its stresses */
+    bool buckles; /* with it: its buckling is asked for, which needs more of its symmetry than its stresses */
 } ves_measure;
 
 /* Members are only ever appended, to this struct and to those above, and the enums only grow; the sizes tell
