@@ -18,13 +18,11 @@ typedef struct plan_sector {
     int folds;           /* turned by 2 pi / folds it is itself */
     double turn[3][3];   /* by to - from */
     double mirror[2][3]; /* normals of the planes at from and to */
-    double step[3][3];   /* the turn by 2 pi / folds */
     double axis[3];
     double copies, share[3][3];
 } plan_sector;
 
 typedef struct plan_shell_part {
-    const ves_shell_part_def *def;
     int patch, site, count; /* site: index in the level; count: nodes */
     double *u, *v;          /* [rows], [columns] in 0 .. 1, 0 .. 2 pi */
     int *weld;

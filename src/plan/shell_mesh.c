@@ -49,11 +49,6 @@ static int elements(const ves_plan *plan, const plan_shell *shell, int part, int
     return (int)ceil(nodes / order);
 }
 
-static bool goes_round(const ves_plan *plan, int patch)
-{
-    return ves_patch_periodic(plan->patch[patch]);
-}
-
 static double *knots(ves_plan *plan, int count, double from, double to, double grading)
 {
     double *knot = ves_arena_doubles(&plan->arena, (size_t)count + 1);
@@ -68,7 +63,7 @@ static ves_status sheet_make(ves_plan *plan, plan_shell *shell, int part)
     const ves_shell_mesh_def *m = said(shell);
     ves_shell_sheet *sheet = &shell->sheet[part];
     int patch = shell->def->part[part].patch, order = m->order ? m->order : choose(shell).order;
-    bool round = goes_round(plan, patch);
+    bool round = ves_patch_periodic(plan->patch[patch]);
     double from = 0, to = VES_TWO_PI, grading = m->grading > 0 ? m->grading : choose(shell).grading;
     *sheet = (ves_shell_sheet){.order = {order, order}};
     for (int d = 0; d < 2; d++) sheet->elements[d] = elements(plan, shell, part, d, order);
@@ -135,8 +130,7 @@ static ves_status part_make(ves_plan *plan, plan_shell *shell, int k)
     plan_shell_part *part = &shell->part[k];
     const ves_shell_sheet *sheet = &shell->sheet[k];
     int rows = ves_shell_rows(sheet), columns = ves_shell_columns(sheet);
-    part->def = &shell->def->part[k];
-    part->patch = part->def->patch;
+    part->patch = shell->def->part[k].patch;
     part->count = rows * columns;
     part->u = ves_arena_doubles(&plan->arena, (size_t)rows);
     part->v = ves_arena_doubles(&plan->arena, (size_t)columns);

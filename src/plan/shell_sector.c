@@ -218,8 +218,8 @@ static bool plane_at(seeker *k, double v0, double normal[3])
 {
     double r[3];
     k->places = FEW;
+    const double *X = points(k, 0, 0, v0);
     for (int i = 0; i < k->places; i++) {
-        const double *X = points(k, 0, 0, v0);
         for (int c = 0; c < 3; c++) r[c] = X[c * k->places + i] - k->centre[c];
         ves_cross(k->axis, r, normal);
         double length = sqrt(ves_dot(normal, normal));
@@ -292,7 +292,6 @@ static void sector_fill(seeker *k, const finding *f, plan_sector *s)
     s->to = s->from + (s->ring ? STRIP : s->mirrored ? VES_PI / n : VES_TWO_PI / n);
     s->copies = VES_TWO_PI / (s->to - s->from);
     rotation(k->axis, s->to - s->from, s->turn);
-    rotation(k->axis, s->ring ? STRIP : VES_TWO_PI / n, s->step);
     for (int end = 0; end < 2 && s->mirrored; end++) plane_at(k, end ? s->to : s->from, s->mirror[end]);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
