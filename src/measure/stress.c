@@ -9,7 +9,7 @@
 #include "measure/power.h"
 
 const ves_key ves_stress_keys[VES_STRESS_KEYS + 1] = {
-    {.name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"},
+    VES_SHELL_CASE,
     {.name = "where",
      .kind = VES_SHELLWISE,
      .unit = "1",

@@ -11,6 +11,12 @@ typedef struct ves_shell_spot {
     double map[3][3];
 } ves_shell_spot;
 
+/* The key of measures of one load case. */
+#define VES_SHELL_CASE                                                                                       \
+    {                                                                                                        \
+        .name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"        \
+    }
+
 typedef struct ves_shell_view {
     ves_shell *shell;
     const ves_shell_model *model;

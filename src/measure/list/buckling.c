@@ -6,8 +6,7 @@
 
 enum { CASE };
 
-static const ves_key KEYS[] = {
-    {.name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"}, {.name = NULL}};
+static const ves_key KEYS[] = {VES_SHELL_CASE, {.name = NULL}};
 
 /* What no load of this kind makes buckle. */
 static const double NEVER = 1e9;

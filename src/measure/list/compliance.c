@@ -3,9 +3,7 @@
 
 enum { CASE };
 
-static const ves_key KEYS[] = {
-    {.name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"},
-    {.name = NULL}};
+static const ves_key KEYS[] = {VES_SHELL_CASE, {.name = NULL}};
 
 /* F . u, twice the strain energy of the whole shell.
  * test  cantilevers; hyperboloids against another program */

@@ -7,7 +7,7 @@
 enum { CASE, AT, ALONG };
 
 static const ves_key KEYS[] = {
-    {.name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"},
+    VES_SHELL_CASE,
     {.name = "at",
      .kind = VES_SHELL_AT,
      .about = "where: a place, or the mean along a curve or an edge; unless given the largest of all"},
