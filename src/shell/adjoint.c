@@ -62,11 +62,6 @@ void ves_shell_adjoint_free(ves_shell *shell)
 
 /* --- fields --- */
 
-static const double *state_of(const ves_shell *shell, int which)
-{
-    return (const double *)shell->solution->x + (size_t)which * shell->solution->d;
-}
-
 /* far: from the near side to the far one, or (back) the other way. */
 static void turn(const ves_shell *shell, bool back, const double a[3], double out[3])
 {
@@ -450,7 +445,7 @@ static void drilling_give(const ves_shell *shell, ves_shell_gradient *g)
 static void points_give(const ves_shell *shell, int which, const ves_shell_seed *seed,
                         const ves_shell_gradient *g)
 {
-    const double *u = state_of(shell, which), *dual = shell->adjoint->solution->x;
+    const double *u = ves_shell_state(shell, which), *dual = shell->adjoint->solution->x;
     for (int k = 0; k < shell->input->points && g->force; k++) {
         const ves_shell_point *p = &shell->input->point[k];
         const shell_freedom *f = &shell->layout[0].freedom[p->node];
@@ -470,7 +465,7 @@ ves_status ves_shell_adjoint(ves_shell *shell, int which, const ves_shell_seed *
         if (shell->kind[k].plus) return VES_ABSENT;
     a->fields = REAL;
     if (seed->factor != 0 && !ves_adjoint_mode_begin(shell, which, seed->factor)) return VES_DEGENERATE;
-    a->field[STATE].vector = state_of(shell, which);
+    a->field[STATE].vector = ves_shell_state(shell, which);
     right_fill(shell, which, seed);
     VES_TRY(solve(shell));
     a->field[DUAL].vector = a->solution->x;

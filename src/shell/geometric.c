@@ -92,7 +92,7 @@ static void follow_make(ves_shell *shell, const shell_element *e, const ves_shel
 ves_status ves_shell_geometric_take(ves_shell *shell, const shell_element *e, int which,
                                     const shell_geometric *g)
 {
-    const double *u = (const double *)shell->solution->x + (size_t)which * shell->solution->d;
+    const double *u = ves_shell_state(shell, which);
     const ves_shell_load *load = &shell->input->load[which * shell->model->sheets + e->sheet];
     ves_shell_body body = ves_shell_gather(shell, e);
     const ves_shell_kind *kind = body.kind;

@@ -69,6 +69,9 @@ struct ves_shell {
     cholmod_dense *force, *solution, *Y, *E;
 };
 
+/* solve.c: the displacements of a case, [freedoms] of the first layout */
+const double *ves_shell_state(const ves_shell *shell, int which);
+
 /* topology.c: lists elements and layouts, numbers freedoms, lays out the matrices */
 ves_status ves_shell_number(ves_shell *shell, ves_arena *arena);
 ves_status ves_shell_layout(ves_shell *shell, shell_layout *layout, ves_arena *arena);
@@ -114,9 +117,16 @@ void ves_shell_drift(const ves_shell *shell, const shell_layout *layout, int nod
 extern const double ves_shell_across[VES_SHELL_LEVELS]; /* the shear there over its mean */
 ves_status ves_shell_stresses_make(ves_shell *shell, ves_arena *arena);
 
-/* load.c: does an element touch an edge of its sheet, and its k-th node there. */
+/* load.c: does an element touch an edge of its sheet? And Gauss along its side there: of each point, functions and slopes
+ * of the nodes along it, the tangent, its length. */
 bool ves_shell_on_edge(const ves_shell *shell, const shell_element *element, int edge);
-int ves_shell_side_node(const ves_shell_kind *kind, int edge, int k);
+enum { VES_SHELL_LINE = VES_SHELL_ORDER + 1 };
+typedef struct shell_line {
+    int count, node[VES_SHELL_LINE];
+    double weight[VES_SHELL_LINE], N[VES_SHELL_LINE][VES_SHELL_LINE], slope[VES_SHELL_LINE][VES_SHELL_LINE];
+    double t[VES_SHELL_LINE][3], length[VES_SHELL_LINE];
+} shell_line;
+void ves_shell_line_at(const ves_shell_body *body, int edge, shell_line *line);
 
 /* assemble.c, load.c. springs: of the element at hand, into K. */
 ves_status ves_shell_assemble(ves_shell *shell, const shell_layout *layout);

@@ -50,7 +50,7 @@ static void surface_add(ves_shell *shell, const shell_element *e, const ves_shel
 }
 
 /* The nodes of an element along one of its sides that lies on an edge of the sheet: k-th. */
-int ves_shell_side_node(const ves_shell_kind *kind, int edge, int k)
+static int side_node(const ves_shell_kind *kind, int edge, int k)
 {
     int across = kind->order[0] + 1;
     if (edge < 2) return k * across + (edge ? kind->order[0] : 0);
@@ -65,52 +65,52 @@ bool ves_shell_on_edge(const ves_shell *shell, const shell_element *e, int edge)
     return at[edge] == 0;
 }
 
-/* weight[q], N[q][k] of a Gauss rule along a side; weights times length. Returns how many points. */
-static int side_rule(const ves_shell_body *body, int edge, double *weight, double (*N)[VES_SHELL_ORDER + 1])
+void ves_shell_line_at(const ves_shell_body *body, int edge, shell_line *l)
 {
-    int order = body->kind->order[edge < 2], count = order + 1;
-    double node[VES_SHELL_ORDER + 1], at[VES_SHELL_ORDER + 1], slope[VES_SHELL_ORDER + 1];
-    ves_rule_nodes(order, node);
-    ves_rule_gauss(count, at, weight);
-    for (int q = 0; q < count; q++) {
-        double t[3] = {0};
-        ves_rule_lagrange(count, node, at[q], N[q], slope);
-        for (int k = 0; k < count; k++)
-            for (int c = 0; c < 3; c++)
-                t[c] += slope[k] * body->X[ves_shell_side_node(body->kind, edge, k)][c];
-        weight[q] *= sqrt(ves_dot(t, t));
+    double node[VES_SHELL_LINE], at[VES_SHELL_LINE];
+    l->count = body->kind->order[edge < 2] + 1;
+    ves_rule_nodes(l->count - 1, node);
+    ves_rule_gauss(l->count, at, l->weight);
+    for (int k = 0; k < l->count; k++) l->node[k] = side_node(body->kind, edge, k);
+    for (int q = 0; q < l->count; q++) {
+        ves_rule_lagrange(l->count, node, at[q], l->N[q], l->slope[q]);
+        for (int c = 0; c < 3; c++) {
+            l->t[q][c] = 0;
+            for (int k = 0; k < l->count; k++) l->t[q][c] += l->slope[q][k] * body->X[l->node[k]][c];
+        }
+        l->length[q] = sqrt(ves_dot(l->t[q], l->t[q]));
     }
-    return count;
 }
 
 double ves_shell_length(ves_shell *shell, const ves_shell_input *input, int sheet, int edge)
 {
-    double length = 0, weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1];
+    double length = 0;
+    shell_line l;
     shell->input = input;
     for (int k = 0; k < shell->elements; k++) {
         const shell_element *e = &shell->element[k];
         if (e->sheet != sheet || !ves_shell_on_edge(shell, e, edge)) continue;
         ves_shell_body body = ves_shell_gather(shell, e);
-        int count = side_rule(&body, edge, weight, N);
-        for (int q = 0; q < count; q++) length += weight[q];
+        ves_shell_line_at(&body, edge, &l);
+        for (int q = 0; q < l.count; q++) length += l.weight[q] * l.length[q];
     }
     return length;
 }
 
 void ves_shell_edge_mean(ves_shell *shell, int which, int sheet, int edge, double U[3])
 {
-    double length = 0, weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1], director[3];
+    double length = 0, director[3];
+    shell_line l;
     memset(U, 0, 3 * sizeof *U);
     for (int k = 0; k < shell->elements; k++) {
         const shell_element *e = &shell->element[k];
         if (e->sheet != sheet || !ves_shell_on_edge(shell, e, edge)) continue;
         ves_shell_body body = ves_shell_gather(shell, e);
-        int count = side_rule(&body, edge, weight, N);
-        for (int i = 0; i < count; i++) {
+        ves_shell_line_at(&body, edge, &l);
+        for (int i = 0; i < l.count; i++) {
             double share = 0, at[3];
-            for (int q = 0; q < count; q++) share += weight[q] * N[q][i];
-            ves_shell_displacement(shell, which, sheet, e->s[ves_shell_side_node(body.kind, edge, i)], at,
-                                   director);
+            for (int q = 0; q < l.count; q++) share += l.weight[q] * l.length[q] * l.N[q][i];
+            ves_shell_displacement(shell, which, sheet, e->s[l.node[i]], at, director);
             for (int c = 0; c < 3; c++) U[c] += share * at[c];
             length += share;
         }
@@ -122,15 +122,16 @@ static void line_add(ves_shell *shell, const shell_element *e, const ves_shell_b
                      int edge, double (*force)[3])
 {
     const ves_shell_load *load = &shell->input->load[which * shell->model->sheets + e->sheet];
-    double weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1];
+    shell_line l;
     if (!load->line[edge][0] || !ves_shell_on_edge(shell, e, edge)) return;
-    int count = side_rule(body, edge, weight, N), first = (edge < 2 ? e->v : e->u) * (count - 1);
-    for (int q = 0; q < count; q++)
+    ves_shell_line_at(body, edge, &l);
+    int first = (edge < 2 ? e->v : e->u) * (l.count - 1);
+    for (int q = 0; q < l.count; q++)
         for (int c = 0; c < 3; c++) {
             double density = 0;
-            for (int k = 0; k < count; k++) density += N[q][k] * load->line[edge][c][first + k];
-            for (int k = 0; k < count; k++)
-                force[ves_shell_side_node(body->kind, edge, k)][c] += weight[q] * N[q][k] * density;
+            for (int k = 0; k < l.count; k++) density += l.N[q][k] * load->line[edge][c][first + k];
+            for (int k = 0; k < l.count; k++)
+                force[l.node[k]][c] += l.weight[q] * l.length[q] * l.N[q][k] * density;
         }
 }
 
@@ -147,11 +148,23 @@ static void points_add(ves_shell *shell)
     }
 }
 
+static bool is_loaded(const ves_shell *shell, const shell_element *e)
+{
+    for (int which = 0; which < shell->model->cases; which++) {
+        const ves_shell_load *load = &shell->input->load[which * shell->model->sheets + e->sheet];
+        if (load->pressure || load->area[0]) return true;
+        for (int edge = 0; edge < VES_SHELL_EDGES; edge++)
+            if (load->line[edge][0] && ves_shell_on_edge(shell, e, edge)) return true;
+    }
+    return false;
+}
+
 void ves_shell_loads(ves_shell *shell)
 {
     memset(shell->force->x, 0, sizeof(double) * shell->force->nzmax);
     for (int i = 0; i < shell->elements; i++) {
         const shell_element *e = &shell->element[i];
+        if (!is_loaded(shell, e)) continue;
         ves_shell_body body = ves_shell_gather(shell, e);
         int columns = ves_shell_columns_of(shell, &shell->layout[0], e);
         for (int which = 0; which < shell->model->cases; which++) {
@@ -169,18 +182,19 @@ void ves_shell_loads(ves_shell *shell)
 /* Springs along the edges of an element, into its stiffness. */
 void ves_shell_springs(ves_shell *shell, const shell_element *e, const ves_shell_body *body, int columns)
 {
-    double weight[VES_SHELL_ORDER + 1], N[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1];
+    shell_line l;
     for (int k = 0; k < shell->model->springs; k++) {
         const ves_shell_spring *spring = &shell->model->spring[k];
         if (spring->sheet != e->sheet || !ves_shell_on_edge(shell, e, spring->edge)) continue;
-        int count = side_rule(body, spring->edge, weight, N);
-        double share[VES_SHELL_ORDER + 1][VES_SHELL_ORDER + 1] = {{0}};
+        double share[VES_SHELL_LINE][VES_SHELL_LINE] = {{0}};
+        ves_shell_line_at(body, spring->edge, &l);
         int place[VES_SHELL_NODES];
         for (int n = 0; n < body->kind->nodes; n++) place[n] = -1;
-        for (int i = 0; i < count; i++) {
-            place[ves_shell_side_node(body->kind, spring->edge, i)] = i;
-            for (int j = 0; j < count; j++)
-                for (int q = 0; q < count; q++) share[i][j] += weight[q] * N[q][i] * N[q][j];
+        for (int i = 0; i < l.count; i++) {
+            place[l.node[i]] = i;
+            for (int j = 0; j < l.count; j++)
+                for (int q = 0; q < l.count; q++)
+                    share[i][j] += l.weight[q] * l.length[q] * l.N[q][i] * l.N[q][j];
         }
         for (int j = 0; j < columns; j++)
             for (int i = j; i < columns; i++) {

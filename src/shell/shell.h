@@ -28,7 +28,7 @@ int ves_shell_rows(const ves_shell_sheet *sheet);
 int ves_shell_columns(const ves_shell_sheet *sheet);                     /* without the last, when closed */
 void ves_shell_grid(const ves_shell_sheet *sheet, double *u, double *v); /* [rows], [columns] */
 
-enum { VES_SHELL_EDGES = 4, VES_SHELL_ROTATIONS = 3 }; /* edges u0, u1, v0, v1 */
+enum { VES_SHELL_EDGES = 4 }; /* edges u0, u1, v0, v1 */
 
 /* The nodes along an edge: how many, and s of the k-th; a closed sheet's u0 and u1 come back to their first. */
 int ves_shell_edge_count(const ves_shell_sheet *sheet, int edge);

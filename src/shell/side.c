@@ -80,31 +80,7 @@ void ves_shell_follow_pull(const ves_shell *shell, const shell_element *e, const
 
 /* --- edges --- */
 
-enum { LINE = VES_SHELL_ORDER + 1 };
-
-typedef struct line {
-    int count, node[LINE];
-    double weight[LINE], N[LINE][LINE], slope[LINE][LINE], t[LINE][3], length[LINE];
-} line;
-
-static void line_at(const ves_shell_body *body, int edge, line *l)
-{
-    double node[LINE], at[LINE];
-    l->count = body->kind->order[edge < 2] + 1;
-    ves_rule_nodes(l->count - 1, node);
-    ves_rule_gauss(l->count, at, l->weight);
-    for (int k = 0; k < l->count; k++) l->node[k] = ves_shell_side_node(body->kind, edge, k);
-    for (int q = 0; q < l->count; q++) {
-        ves_rule_lagrange(l->count, node, at[q], l->N[q], l->slope[q]);
-        for (int c = 0; c < 3; c++) {
-            l->t[q][c] = 0;
-            for (int k = 0; k < l->count; k++) l->t[q][c] += l->slope[q][k] * body->X[l->node[k]][c];
-        }
-        l->length[q] = sqrt(ves_dot(l->t[q], l->t[q]));
-    }
-}
-
-static void line_field(const line *l, int q, const double (*of)[3], double out[3])
+static void line_field(const shell_line *l, int q, const double (*of)[3], double out[3])
 {
     for (int c = 0; c < 3; c++) {
         out[c] = 0;
@@ -113,7 +89,7 @@ static void line_field(const line *l, int q, const double (*of)[3], double out[3
 }
 
 /* `density` times the length at a point. */
-static void length_pull(const line *l, int q, double density, double (*on_X)[3])
+static void length_pull(const shell_line *l, int q, double density, double (*on_X)[3])
 {
     for (int k = 0; k < l->count; k++)
         for (int c = 0; c < 3; c++)
@@ -124,9 +100,9 @@ static void line_pull(const ves_shell *shell, const shell_element *e, const ves_
                       const shell_side *of)
 {
     const ves_shell_load *load = &shell->input->load[of->which * shell->model->sheets + e->sheet];
-    line l;
+    shell_line l;
     if (!load->line[edge][0] || !ves_shell_on_edge(shell, e, edge)) return;
-    line_at(body, edge, &l);
+    ves_shell_line_at(body, edge, &l);
     int first = (edge < 2 ? e->v : e->u) * (l.count - 1);
     for (int q = 0; q < l.count; q++) {
         double w[3], density = 0;
@@ -146,9 +122,9 @@ void ves_shell_springs_pull(const ves_shell *shell, const shell_element *e, cons
 {
     for (int i = 0; i < shell->model->springs; i++) {
         const ves_shell_spring *spring = &shell->model->spring[i];
-        line l;
+        shell_line l;
         if (spring->sheet != e->sheet || !ves_shell_on_edge(shell, e, spring->edge)) continue;
-        line_at(body, spring->edge, &l);
+        ves_shell_line_at(body, spring->edge, &l);
         for (int q = 0; q < l.count; q++) {
             double u[3], w[3], density = 0;
             line_field(&l, q, of->U, u);

@@ -134,14 +134,14 @@ ves_status ves_shell_solve(ves_shell *shell, const ves_shell_input *input)
     return VES_OK;
 }
 
-static const double *solution_of(const ves_shell *shell, int which)
+const double *ves_shell_state(const ves_shell *shell, int which)
 {
     return (const double *)shell->solution->x + (size_t)which * shell->solution->d;
 }
 
 double ves_shell_work(const ves_shell *shell, int which)
 {
-    const double *u = solution_of(shell, which),
+    const double *u = ves_shell_state(shell, which),
                  *f = (const double *)shell->force->x + (size_t)which * shell->force->d;
     double sum = 0;
     for (int k = 0; k < shell->layout[0].freedoms; k++) sum += u[k] * f[k];
@@ -152,7 +152,7 @@ void ves_shell_displacement(const ves_shell *shell, int which, int sheet, int s,
                             double director[3])
 {
     const ves_shell_model *m = shell->model;
-    const double *u = solution_of(shell, which);
+    const double *u = ves_shell_state(shell, which);
     double turn[3] = {0}, move[3] = {0}, n[3];
     int node = m->weld[sheet][s];
     const shell_freedom *f = &shell->layout[0].freedom[node];
@@ -162,7 +162,7 @@ void ves_shell_displacement(const ves_shell *shell, int which, int sheet, int s,
             if (f->turns[i] >= 0)
                 turn[c] += u[f->first + f->turns[i]] * shell->layout[0].pivot[node].axis[i][c];
         }
-    bool far = m->far && m->far[sheet] && m->far[sheet][s];
+    bool far = ves_shell_is_far(shell, sheet, s);
     for (int r = 0; r < 3; r++) U[r] = far ? ves_dot(m->turn[r], move) : move[r];
     double about[3];
     for (int r = 0; r < 3; r++) about[r] = far ? ves_dot(m->turn[r], turn) : turn[r];

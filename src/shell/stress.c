@@ -70,7 +70,7 @@ static void stress_fill(const ves_shell *shell, const ves_shell_body *body, int 
 
 const ves_shell_stresses *ves_shell_stress(ves_shell *shell, int which)
 {
-    const double *u = (const double *)shell->solution->x + (size_t)which * shell->solution->d;
+    const double *u = ves_shell_state(shell, which);
     if (shell->stressed == which) return &shell->stresses;
     for (int i = 0, at = 0; i < shell->elements; i++) {
         const shell_element *e = &shell->element[i];
