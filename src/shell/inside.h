@@ -50,6 +50,7 @@ struct ves_shell {
     shell_layout *layout; /* [layouts] the first: of the loads */
     int layouts;
     int *lead_sheet, *lead; /* [nodes] the first sheet and s that are welded there */
+    int *order, *rank;      /* [nodes] in which they are eliminated, and back */
     int elements;
     shell_element *element;
     int widest; /* columns of an element, most */
@@ -72,8 +73,10 @@ struct ves_shell {
 /* solve.c: the displacements of a case, [freedoms] of the first layout */
 const double *ves_shell_state(const ves_shell *shell, int which);
 
-/* topology.c: lists elements and layouts, numbers freedoms, lays out the matrices */
+/* topology.c: lists elements and layouts, numbers freedoms */
 ves_status ves_shell_number(ves_shell *shell, ves_arena *arena);
+/* pattern.c: finds the order of nodes; lays out the matrix of a layout */
+ves_status ves_shell_order(ves_shell *shell, ves_arena *arena);
 ves_status ves_shell_layout(ves_shell *shell, shell_layout *layout, ves_arena *arena);
 
 /* gather.c: the element at hand: X, V; then columns, and which freedoms they are. */

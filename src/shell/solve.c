@@ -42,17 +42,13 @@ static ves_status scratch_make(ves_shell *shell, ves_arena *arena)
                : VES_MEMORY;
 }
 
-/* One ordering, which depends on the pattern alone (METIS keeps a state of its own between threads). */
+/* Of matrices that are numbered as they are to be eliminated. */
 static ves_status factor_make(ves_shell *shell)
 {
     cholmod_common *c = &shell->common;
     size_t n = (size_t)shell->layout[0].freedoms, cases = (size_t)shell->model->cases;
-    c->nmethods = 1;
-    c->method[0].ordering = CHOLMOD_AMD;
-    c->postorder = true;
-    c->print = 0;
-    c->try_catch = true;
-    c->quick_return_if_not_posdef = true;
+    c->method[0].ordering = CHOLMOD_NATURAL;
+    c->postorder = false;
     for (int k = 0; k < shell->layouts; k++) {
         shell_layout *layout = &shell->layout[k];
         layout->factor = cholmod_analyze(layout->matrix, c);
@@ -60,6 +56,15 @@ static ves_status factor_make(ves_shell *shell)
     }
     shell->force = cholmod_zeros(n, cases, CHOLMOD_REAL, c);
     return shell->force ? VES_OK : VES_MEMORY;
+}
+
+static void common_start(cholmod_common *c)
+{
+    cholmod_start(c);
+    c->nmethods = 1;
+    c->print = 0;
+    c->try_catch = true;
+    c->quick_return_if_not_posdef = true;
 }
 
 static ves_status build(ves_shell *shell, ves_arena *arena)
@@ -82,7 +87,7 @@ ves_status ves_shell_create(const ves_shell_model *model, const ves_shell_input 
     if (!shell) return VES_MEMORY;
     shell->model = model, shell->input = input;
     shell->stressed = -1;
-    cholmod_start(&shell->common);
+    common_start(&shell->common);
     ves_status status = build(shell, arena);
     if (status == VES_OK)
         *out = shell;
