@@ -8,6 +8,7 @@
 #include "base/eigen.h"
 #include "base/vector.h"
 #include "shell/element.h"
+#include "shell/lamina.h"
 
 /* --- elements by themselves: five degrees of freedom a node --- */
 
@@ -170,6 +171,54 @@ Test(checks, rigid)
                       value[6], value[n - 1]);
             ves_arena_destroy(&p.arena);
         }
+}
+
+/* What the columns do against a motion: forces on the strains of points, pulled back to the nodes. */
+static void forces_by_points(piece *p, const double *u, double *force)
+{
+    const ves_shell_points *rule = &p->kind.rule;
+    ves_shell_body body = piece_body(p);
+    double U[MOST][3] = {{0}}, A[MOST][3] = {{0}}, on_U[MOST][3] = {{0}}, on_A[MOST][3] = {{0}},
+           strain[MOST * VES_GENERAL];
+    for (int i = 0; i < p->columns; i++) {
+        const ves_shell_column *c = &p->column[i];
+        for (int d = 0; d < 3; d++) (c->turns ? A : U)[c->node][d] += u[i] * c->vector[d];
+    }
+    ves_shell_strains(&body, rule, (const double(*)[3])U, (const double(*)[3])A, &p->scratch, strain);
+    for (int q = 0; q < rule->points; q++) {
+        ves_shell_frame frame;
+        double e[VES_GENERAL];
+        memcpy(e, strain + q * VES_GENERAL, sizeof e);
+        ves_shell_frame_at(&body, &rule->table, q, &frame);
+        cr_assert(ves_lamina_forces(&frame, &p->material, rule->weight[q], e, strain + q * VES_GENERAL));
+    }
+    ves_shell_pull(&body, rule, strain, &p->scratch, on_U, on_A);
+    for (int i = 0; i < p->columns; i++) {
+        const ves_shell_column *c = &p->column[i];
+        force[i] = ves_dot(c->vector, (c->turns ? on_A : on_U)[c->node]);
+    }
+}
+
+/* K u is what the strains of u say, point by point, to the rounding of the stiffest entry. */
+Test(checks, points)
+{
+    for (int o = 0; o < ORDER_COUNT; o++) {
+        piece p;
+        double u[DEGREES], force[DEGREES], largest = 0;
+        piece_make(&p, ORDERS[o], (ves_shell_material){2, 0.3, 5.0 / 6});
+        piece_shape(&p, CURVED, 1);
+        piece_stiffness(&p);
+        for (int i = 0; i < p.columns; i++)
+            u[i] = sin(1.7 * i), largest = fmax(largest, p.K[i * p.columns + i]);
+        forces_by_points(&p, u, force);
+        for (int i = 0; i < p.columns; i++) {
+            double sum = 0;
+            for (int j = 0; j < p.columns; j++) sum += p.K[i * p.columns + j] * u[j];
+            cr_assert_float_eq(sum, force[i], 1e-12 * largest, "order %d, %d: %.17g %.17g", ORDERS[o], i, sum,
+                               force[i]);
+        }
+        ves_arena_destroy(&p.arena);
+    }
 }
 
 /* Where local numbering begins does not matter. */

@@ -7,6 +7,7 @@
 
 #include "base/vector.h"
 #include "shell/lamina.h"
+#include "shell/tensor.h"
 
 static void interpolate(int nodes, const double *N, const double (*X)[3], double out[3])
 {
@@ -310,17 +311,29 @@ void ves_shell_pull(const ves_shell_body *body, const ves_shell_points *at, cons
 
 /* --- stiffness --- */
 
+static size_t most(size_t a, size_t b)
+{
+    return a > b ? a : b;
+}
+
 ves_status ves_shell_scratch_make(const ves_shell_kind *kind, int kinds, int columns, ves_arena *arena,
                                   ves_shell_scratch *scratch)
 {
-    int rows = VES_GENERAL * columns, points = 0, tied = 0;
+    size_t rows = (size_t)(VES_GENERAL * columns), nodes = 0, row = 0, tied = 0, line = 0, block = 0;
     for (int k = 0; k < kinds; k++) {
-        if (kind[k].rule.points > points) points = kind[k].rule.points;
-        if (tied_points(&kind[k]) > tied) tied = tied_points(&kind[k]);
+        ves_shell_tensor_size sums = ves_shell_tensor_needs(&kind[k]);
+        nodes = most(nodes, (size_t)kind[k].nodes);
+        row = most(row, kind[k].twice[0] ? sums.points : (size_t)kind[k].rule.points * rows);
+        line = most(line, sums.lines), block = most(block, sums.blocks);
+        tied = most(tied, (size_t)tied_points(&kind[k]) * rows);
     }
-    scratch->row = ves_arena_doubles(arena, (size_t)(points * rows));
-    scratch->tied = ves_arena_doubles(arena, (size_t)(tied * rows));
-    return scratch->row && scratch->tied ? VES_OK : VES_MEMORY;
+    scratch->row = ves_arena_doubles(arena, row);
+    scratch->tied = ves_arena_doubles(arena, tied);
+    scratch->line = ves_arena_doubles(arena, line);
+    scratch->block = ves_arena_doubles(arena, block);
+    scratch->begin = ves_arena_take(arena, nodes + 1, sizeof *scratch->begin);
+    return scratch->row && scratch->tied && scratch->line && scratch->block && scratch->begin ? VES_OK
+                                                                                              : VES_MEMORY;
 }
 
 /* Rows e become F e, in place: F is upper triangular. */
@@ -334,12 +347,13 @@ static void rows_weigh(int columns, double F[VES_GENERAL][VES_GENERAL], double *
         }
 }
 
-/* K = sum over points of e' G e = R' R with the rows R = F e of all points: one product. */
+/* Of tied elements K = sum over points of e' G e = R' R with the rows R = F e of all points: one product. */
 ves_status ves_shell_stiffness(const ves_shell_body *body, const ves_shell_material *material, int columns,
                                const ves_shell_column *column, const ves_shell_scratch *scratch, double *K)
 {
     const ves_shell_points *rule = &body->kind->rule;
     const cause of = {.columns = columns, .column = column};
+    if (body->kind->twice[0]) return ves_shell_tensor_stiffness(body, material, columns, column, scratch, K);
     rows_fill(body, rule, &of, scratch->tied, scratch->row);
     for (int q = 0; q < rule->points; q++) {
         ves_shell_frame frame;

@@ -36,10 +36,12 @@ typedef struct ves_shell_frame {
 void ves_shell_frame_at(const ves_shell_body *body, const ves_shell_table *table, int point,
                         ves_shell_frame *frame);
 
-/* Scratch of the functions below, for elements of these kinds with at most so many columns; made once. */
+/* Scratch of the functions below, for elements of these kinds with at most so many columns; made once. Columns are in the order of their nodes. */
 typedef struct ves_shell_scratch {
-    double *row;  /* [points of the rule][VES_GENERAL][columns] */
-    double *tied; /* [tying points of all strains][VES_GENERAL][columns] */
+    double *row;          /* [points of the rule][VES_GENERAL][columns], or what shell/tensor.c sums */
+    double *tied;         /* [tying points of all strains][VES_GENERAL][columns] */
+    double *line, *block; /* of sums along r, and along s */
+    int *begin;           /* [nodes + 1] */
 } ves_shell_scratch;
 ves_status ves_shell_scratch_make(const ves_shell_kind *kind, int kinds, int columns, ves_arena *arena,
                                   ves_shell_scratch *scratch);

@@ -1,4 +1,4 @@
-#include "shell/kind.h"
+#include "shell/tensor.h"
 
 #include <math.h>
 #include <string.h>
@@ -85,7 +85,7 @@ static ves_status mix_make(const ves_shell_kind *kind, ves_strain strain, ves_ar
 {
     line at[2];
     double value[2][LINE], slope[LINE];
-    if (kind->order[0] != kind->order[1] || !tying(kind->order[0], strain, at)) return VES_OK;
+    if (!kind->tied[strain].points || !tying(kind->order[0], strain, at)) return VES_OK;
     int tied = at[0].count * at[1].count;
     double *mix = ves_arena_doubles(arena, (size_t)(out->points * tied));
     if (!mix) return VES_MEMORY;
@@ -147,6 +147,13 @@ static ves_status lattice_make(ves_shell_kind *kind, bool flat, ves_arena *arena
     return points_make(kind, arena, &kind->lattice);
 }
 
+static bool is_tied(const ves_shell_kind *kind)
+{
+    bool any = false;
+    for (int strain = 0; strain < VES_STRAINS; strain++) any = any || kind->tied[strain].points;
+    return any;
+}
+
 ves_status ves_shell_kind_make(const int order[2], bool flat, ves_arena *arena, ves_shell_kind *kind)
 {
     *kind = (ves_shell_kind){.order = {order[0], order[1]}, .nodes = (order[0] + 1) * (order[1] + 1)};
@@ -154,5 +161,6 @@ ves_status ves_shell_kind_make(const int order[2], bool flat, ves_arena *arena, 
     for (int strain = 0; strain < VES_STRAINS && !flat; strain++)
         VES_TRY(tied_make(kind, (ves_strain)strain, arena));
     VES_TRY(rule_make(kind, flat, arena));
+    if (!is_tied(kind)) VES_TRY(ves_shell_tensor_make(kind, arena));
     return lattice_make(kind, flat, arena);
 }

@@ -41,7 +41,8 @@ typedef struct ves_shell_kind {
     int order[2], nodes;
     bool plus; /* the membrane of MITC4+, whose interpolation depends on the element's shape */
     ves_shell_table tied[VES_STRAINS];
-    ves_shell_points rule;    /* quadrature */
+    ves_shell_points rule; /* quadrature */
+    double *twice[2];      /* of products of two functions along r and s: shell/tensor.c; NULL: it is tied */
     ves_shell_points lattice; /* where stresses are reported: evenly spread, ends included */
 } ves_shell_kind;
 

@@ -79,10 +79,10 @@ static bool cholesky(double G[VES_GENERAL][VES_GENERAL], double F[VES_GENERAL][V
 }
 
 /* The strains of a level are (P_11 + s B_11, P_22 + s B_22, P_12 + s B_12, S_13, S_23), s = -+1. */
-bool ves_lamina_factor(const ves_shell_frame *f, const ves_shell_material *m, double weight,
-                       double F[VES_GENERAL][VES_GENERAL])
+bool ves_lamina_law(const ves_shell_frame *f, const ves_shell_material *m, double weight,
+                    double G[VES_GENERAL][VES_GENERAL])
 {
-    double G[VES_GENERAL][VES_GENERAL] = {{0}};
+    memset(G, 0, VES_GENERAL * sizeof G[0]);
     for (int s = -1; s < 2; s += 2) {
         ves_lamina lamina;
         double R[VES_STRESSES][VES_STRESSES], rows[VES_STRESSES][VES_GENERAL] = {{0}};
@@ -96,10 +96,17 @@ bool ves_lamina_factor(const ves_shell_frame *f, const ves_shell_material *m, do
                 if (j < 3) rows[i][j + 3] = s * sum;
             }
         for (int i = 0; i < VES_GENERAL; i++)
-            for (int j = i; j < VES_GENERAL; j++)
+            for (int j = 0; j < VES_GENERAL; j++)
                 for (int k = 0; k < VES_STRESSES; k++) G[i][j] += rows[k][i] * rows[k][j];
     }
-    return cholesky(G, F);
+    return true;
+}
+
+bool ves_lamina_factor(const ves_shell_frame *f, const ves_shell_material *m, double weight,
+                       double F[VES_GENERAL][VES_GENERAL])
+{
+    double G[VES_GENERAL][VES_GENERAL];
+    return ves_lamina_law(f, m, weight, G) && cholesky(G, F);
 }
 
 bool ves_lamina_forces(const ves_shell_frame *f, const ves_shell_material *m, double weight,

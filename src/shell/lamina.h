@@ -21,8 +21,10 @@ void ves_lamina_stress(const ves_shell_material *material, const double strain[V
 /* Level of the two Gauss points across the thickness. */
 #define VES_LEVEL 0.57735026918962576451
 
-/* The energy of the eight strains at a point, integrated over the thickness: half of strain' G strain. G is handed out
- * as F with G = F' F, rows scaled by the root of weight. False: as ves_lamina_at. */
+/* The energy of the eight strains at a point, integrated over the thickness: half of strain' G strain, times weight;
+ * and F with G = F' F. False: as ves_lamina_at. */
+bool ves_lamina_law(const ves_shell_frame *frame, const ves_shell_material *material, double weight,
+                    double G[VES_GENERAL][VES_GENERAL]);
 bool ves_lamina_factor(const ves_shell_frame *frame, const ves_shell_material *material, double weight,
                        double F[VES_GENERAL][VES_GENERAL]);
 
