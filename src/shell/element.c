@@ -28,6 +28,30 @@ void ves_shell_frame_at(const ves_shell_body *body, const ves_shell_table *table
     interpolate(nodes, table->N + from, body->V, f->V);
 }
 
+/* The same at once, as products with the tables. */
+static void frames_fill(const ves_shell_body *body, const ves_shell_table *t, double (*both)[6],
+                        ves_shell_frame *out)
+{
+    enum { SIX = 6, FRAME = sizeof *out / sizeof(double) };
+    const int nodes = body->kind->nodes;
+    const double *of[3] = {t->Nr, t->Ns, t->N};
+    double *to[3] = {out->Xr, out->Xs, out->V};
+    for (int k = 0; k < nodes; k++) {
+        memcpy(both[k], body->X[k], sizeof body->X[k]);
+        memcpy(both[k] + 3, body->V[k], sizeof body->V[k]);
+    }
+    for (int k = 0; k < 3; k++)
+        cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, t->points, k < 2 ? SIX : 3, nodes, 1, of[k],
+                    nodes, both[0] + (k < 2 ? 0 : 3), SIX, 0, to[k], FRAME);
+}
+
+const ves_shell_frame *ves_shell_frames(const ves_shell_body *body, const ves_shell_table *table,
+                                        const ves_shell_scratch *scratch)
+{
+    frames_fill(body, table, scratch->both, scratch->frame);
+    return scratch->frame;
+}
+
 /* --- strains at points: of columns, or of one field of displacements --- */
 
 /* Where in the eight strains a strain has its even part, and whether it has an odd one, 3 places further. */
@@ -39,34 +63,19 @@ static bool bends(int strain)
     return strain <= VES_RS;
 }
 
-typedef struct motion { /* what moves a point: U_r, U_s, A, A_r, A_s */
-    double Ur[3], Us[3], A[3], Ar[3], As[3];
-} motion;
-
-static void motion_at(int nodes, const ves_shell_table *t, int point, const double (*U)[3],
-                      const double (*A)[3], motion *m)
+/* The eight strains of a motion m (element.h). */
+static void strains_of(const ves_shell_frame *f, const ves_shell_frame *m, double e[VES_GENERAL])
 {
-    const int from = point * nodes;
-    interpolate(nodes, t->Nr + from, U, m->Ur);
-    interpolate(nodes, t->Ns + from, U, m->Us);
-    interpolate(nodes, t->N + from, A, m->A);
-    interpolate(nodes, t->Nr + from, A, m->Ar);
-    interpolate(nodes, t->Ns + from, A, m->As);
-}
-
-/* The eight strains of a motion. */
-static void strains_of(const ves_shell_frame *f, const motion *m, double e[VES_GENERAL])
-{
-    e[0] = ves_dot(f->Xr, m->Ur) + Z * Z * ves_dot(f->Vr, m->Ar);
-    e[1] = ves_dot(f->Xs, m->Us) + Z * Z * ves_dot(f->Vs, m->As);
-    e[2] = ves_dot(f->Xr, m->Us) + ves_dot(f->Xs, m->Ur) +
-           Z * Z * (ves_dot(f->Vr, m->As) + ves_dot(f->Vs, m->Ar));
-    e[3] = Z * (ves_dot(f->Xr, m->Ar) + ves_dot(f->Vr, m->Ur));
-    e[4] = Z * (ves_dot(f->Xs, m->As) + ves_dot(f->Vs, m->Us));
+    e[0] = ves_dot(f->Xr, m->Xr) + Z * Z * ves_dot(f->Vr, m->Vr);
+    e[1] = ves_dot(f->Xs, m->Xs) + Z * Z * ves_dot(f->Vs, m->Vs);
+    e[2] = ves_dot(f->Xr, m->Xs) + ves_dot(f->Xs, m->Xr) +
+           Z * Z * (ves_dot(f->Vr, m->Vs) + ves_dot(f->Vs, m->Vr));
+    e[3] = Z * (ves_dot(f->Xr, m->Vr) + ves_dot(f->Vr, m->Xr));
+    e[4] = Z * (ves_dot(f->Xs, m->Vs) + ves_dot(f->Vs, m->Xs));
     e[5] =
-        Z * (ves_dot(f->Xr, m->As) + ves_dot(f->Xs, m->Ar) + ves_dot(f->Vr, m->Us) + ves_dot(f->Vs, m->Ur));
-    e[6] = ves_dot(f->Xr, m->A) + ves_dot(f->V, m->Ur);
-    e[7] = ves_dot(f->Xs, m->A) + ves_dot(f->V, m->Us);
+        Z * (ves_dot(f->Xr, m->Vs) + ves_dot(f->Xs, m->Vr) + ves_dot(f->Vr, m->Xs) + ves_dot(f->Vs, m->Xr));
+    e[6] = ves_dot(f->Xr, m->V) + ves_dot(f->V, m->Xr);
+    e[7] = ves_dot(f->Xs, m->V) + ves_dot(f->V, m->Xs);
 }
 
 /* The same of a column, which moves one node alone: e[k] at e[k * stride]. */
@@ -98,12 +107,12 @@ static void strains_at(const ves_shell_body *body, const ves_shell_table *t, int
                        double *e)
 {
     int nodes = body->kind->nodes;
-    ves_shell_frame frame;
+    ves_shell_frame frame, motion;
     ves_shell_frame_at(body, t, point, &frame);
     if (!of->column) {
-        motion m;
-        motion_at(nodes, t, point, of->U, of->A, &m);
-        strains_of(&frame, &m, e);
+        const ves_shell_body moved = {body->kind, of->U, of->A};
+        ves_shell_frame_at(&moved, t, point, &motion);
+        strains_of(&frame, &motion, e);
         return;
     }
     for (int c = 0; c < of->columns; c++) {
@@ -236,7 +245,15 @@ void ves_shell_strains(const ves_shell_body *body, const ves_shell_points *at, c
                        const double (*A)[3], const ves_shell_scratch *scratch, double *strain)
 {
     const cause of = {.columns = 1, .U = U, .A = A};
-    rows_fill(body, at, &of, scratch->tied, strain);
+    const ves_shell_body moved = {body->kind, U, A};
+    if (!body->kind->twice[0]) {
+        rows_fill(body, at, &of, scratch->tied, strain);
+        return;
+    }
+    frames_fill(body, &at->table, scratch->both, scratch->frame);
+    frames_fill(&moved, &at->table, scratch->both, scratch->motion);
+    for (int q = 0; q < at->points; q++)
+        strains_of(&scratch->frame[q], &scratch->motion[q], strain + q * VES_GENERAL);
 }
 
 /* --- the transpose --- */
@@ -247,21 +264,21 @@ static void strains_pull(const ves_shell_body *body, const ves_shell_table *t, i
 {
     const int nodes = body->kind->nodes, from = point * nodes;
     ves_shell_frame f;
-    motion m;
+    ves_shell_frame m;
     ves_shell_frame_at(body, t, point, &f);
     for (int c = 0; c < 3; c++) {
         double Xr = f.Xr[c], Xs = f.Xs[c], Vr = f.Vr[c], Vs = f.Vs[c];
-        m.Ur[c] = g[0] * Xr + g[2] * Xs + Z * (g[3] * Vr + g[5] * Vs) + g[6] * f.V[c];
-        m.Us[c] = g[1] * Xs + g[2] * Xr + Z * (g[4] * Vs + g[5] * Vr) + g[7] * f.V[c];
-        m.A[c] = g[6] * Xr + g[7] * Xs;
-        m.Ar[c] = Z * Z * (g[0] * Vr + g[2] * Vs) + Z * (g[3] * Xr + g[5] * Xs);
-        m.As[c] = Z * Z * (g[1] * Vs + g[2] * Vr) + Z * (g[4] * Xs + g[5] * Xr);
+        m.Xr[c] = g[0] * Xr + g[2] * Xs + Z * (g[3] * Vr + g[5] * Vs) + g[6] * f.V[c];
+        m.Xs[c] = g[1] * Xs + g[2] * Xr + Z * (g[4] * Vs + g[5] * Vr) + g[7] * f.V[c];
+        m.V[c] = g[6] * Xr + g[7] * Xs;
+        m.Vr[c] = Z * Z * (g[0] * Vr + g[2] * Vs) + Z * (g[3] * Xr + g[5] * Xs);
+        m.Vs[c] = Z * Z * (g[1] * Vs + g[2] * Vr) + Z * (g[4] * Xs + g[5] * Xr);
     }
     for (int k = 0; k < nodes; k++) {
         double N = t->N[from + k], Nr = t->Nr[from + k], Ns = t->Ns[from + k];
         for (int c = 0; c < 3; c++) {
-            U[k][c] += Nr * m.Ur[c] + Ns * m.Us[c];
-            A[k][c] += N * m.A[c] + Nr * m.Ar[c] + Ns * m.As[c];
+            U[k][c] += Nr * m.Xr[c] + Ns * m.Xs[c];
+            A[k][c] += N * m.V[c] + Nr * m.Vr[c] + Ns * m.Vs[c];
         }
     }
 }
@@ -319,10 +336,12 @@ static size_t most(size_t a, size_t b)
 ves_status ves_shell_scratch_make(const ves_shell_kind *kind, int kinds, int columns, ves_arena *arena,
                                   ves_shell_scratch *scratch)
 {
-    size_t rows = (size_t)(VES_GENERAL * columns), nodes = 0, row = 0, tied = 0, line = 0, block = 0;
+    size_t rows = (size_t)(VES_GENERAL * columns), nodes = 0, points = 0, row = 0, tied = 0, line = 0,
+           block = 0;
     for (int k = 0; k < kinds; k++) {
         ves_shell_tensor_size sums = ves_shell_tensor_needs(&kind[k]);
         nodes = most(nodes, (size_t)kind[k].nodes);
+        points = most(points, most((size_t)kind[k].rule.points, (size_t)kind[k].lattice.points));
         row = most(row, kind[k].twice[0] ? sums.points : (size_t)kind[k].rule.points * rows);
         line = most(line, sums.lines), block = most(block, sums.blocks);
         tied = most(tied, (size_t)tied_points(&kind[k]) * rows);
@@ -332,8 +351,13 @@ ves_status ves_shell_scratch_make(const ves_shell_kind *kind, int kinds, int col
     scratch->line = ves_arena_doubles(arena, line);
     scratch->block = ves_arena_doubles(arena, block);
     scratch->begin = ves_arena_take(arena, nodes + 1, sizeof *scratch->begin);
-    return scratch->row && scratch->tied && scratch->line && scratch->block && scratch->begin ? VES_OK
-                                                                                              : VES_MEMORY;
+    scratch->both = ves_arena_take(arena, nodes, sizeof *scratch->both);
+    scratch->frame = ves_arena_take(arena, points, sizeof *scratch->frame);
+    scratch->motion = ves_arena_take(arena, points, sizeof *scratch->motion);
+    return scratch->row && scratch->tied && scratch->line && scratch->block && scratch->begin &&
+                   scratch->both && scratch->frame && scratch->motion
+               ? VES_OK
+               : VES_MEMORY;
 }
 
 /* Rows e become F e, in place: F is upper triangular. */

@@ -29,9 +29,9 @@ typedef struct ves_shell_body {
     const double (*X)[3], (*V)[3];
 } ves_shell_body;
 
-/* X_r, X_s, V_r, V_s, V at a point. */
+/* X_r, V_r, X_s, V_s, V at a point; or of a motion U_r, A_r, U_s, A_s, A. */
 typedef struct ves_shell_frame {
-    double Xr[3], Xs[3], Vr[3], Vs[3], V[3];
+    double Xr[3], Vr[3], Xs[3], Vs[3], V[3];
 } ves_shell_frame;
 void ves_shell_frame_at(const ves_shell_body *body, const ves_shell_table *table, int point,
                         ves_shell_frame *frame);
@@ -42,9 +42,15 @@ typedef struct ves_shell_scratch {
     double *tied;         /* [tying points of all strains][VES_GENERAL][columns] */
     double *line, *block; /* of sums along r, and along s */
     int *begin;           /* [nodes + 1] */
+    double (*both)[6];    /* [nodes] */
+    ves_shell_frame *frame, *motion; /* [points] of any table */
 } ves_shell_scratch;
 ves_status ves_shell_scratch_make(const ves_shell_kind *kind, int kinds, int columns, ves_arena *arena,
                                   ves_shell_scratch *scratch);
+
+/* At all points of a table: in scratch->frame. */
+const ves_shell_frame *ves_shell_frames(const ves_shell_body *body, const ves_shell_table *table,
+                                        const ves_shell_scratch *scratch);
 
 /* K [columns][columns], the lower triangle by columns (K[j * columns + i], i >= j). VES_DEGENERATE: the element is
  * turned over, or has no area or thickness, somewhere. */

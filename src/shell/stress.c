@@ -51,16 +51,15 @@ static void place_fill(const ves_shell *shell, const shell_element *e, const ves
 /* It is parabolic. */
 const double ves_shell_across[VES_SHELL_LEVELS] = {0, 1.5, 0};
 
-static void stress_fill(const ves_shell *shell, const ves_shell_body *body, int q, int at)
+static void stress_fill(const ves_shell *shell, const ves_shell_body *body, const ves_shell_frame *frame,
+                        int q, int at)
 {
-    ves_shell_frame frame;
     double normal[3];
-    ves_shell_frame_at(body, &body->kind->lattice.table, q, &frame);
-    ves_cross(frame.Xr, frame.Xs, normal);
+    ves_cross(frame->Xr, frame->Xs, normal);
     shell->stresses.area[at] = body->kind->lattice.weight[q] * sqrt(ves_dot(normal, normal));
     for (int level = 0; level < VES_SHELL_LEVELS; level++) {
         double *stress = shell->stresses.stress[at][level];
-        if (!ves_shell_stress_at(&frame, &shell->input->material, shell->strain + q * VES_GENERAL, level - 1,
+        if (!ves_shell_stress_at(frame, &shell->input->material, shell->strain + q * VES_GENERAL, level - 1,
                                  stress))
             for (int k = 0; k < VES_STRESSES; k++)
                 stress[k] = 0; /* at a pole, where an element has a side of no length */
@@ -78,9 +77,10 @@ const ves_shell_stresses *ves_shell_stress(ves_shell *shell, int which)
         ves_shell_field(shell, &shell->layout[0], e, u);
         ves_shell_strains(&body, &body.kind->lattice, (const double(*)[3])shell->U,
                           (const double(*)[3])shell->A, &shell->scratch, shell->strain);
+        const ves_shell_frame *frame = ves_shell_frames(&body, &body.kind->lattice.table, &shell->scratch);
         for (int q = 0; q < body.kind->lattice.points; q++, at++) {
             place_fill(shell, e, &body, q, at);
-            stress_fill(shell, &body, q, at);
+            stress_fill(shell, &body, &frame[q], q, at);
         }
     }
     shell->stressed = which;

@@ -144,17 +144,17 @@ static void point_write(const ves_shell_kind *kind, int q, double D[WAYS * SIX][
     }
 }
 
-static bool points_fill(const ves_shell_body *body, const ves_shell_material *material, double *out)
+static bool points_fill(const ves_shell_body *body, const ves_shell_material *material,
+                        const ves_shell_scratch *scratch)
 {
     const ves_shell_points *rule = &body->kind->rule;
+    const ves_shell_frame *frame = ves_shell_frames(body, &rule->table, scratch);
     for (int q = 0; q < rule->points; q++) {
-        ves_shell_frame frame;
         double G[VES_GENERAL][VES_GENERAL], S[VES_GENERAL][WAYS][SIX], D[WAYS * SIX][WAYS * SIX];
-        ves_shell_frame_at(body, &rule->table, q, &frame);
-        if (!ves_lamina_law(&frame, material, rule->weight[q], G)) return false;
-        strains(&frame, S);
+        if (!ves_lamina_law(&frame[q], material, rule->weight[q], G)) return false;
+        strains(&frame[q], S);
         law_of_motion((const double(*)[VES_GENERAL])G, (const double(*)[WAYS][SIX])S, D);
-        point_write(body->kind, q, D, out);
+        point_write(body->kind, q, D, scratch->row);
     }
     return true;
 }
@@ -219,7 +219,7 @@ ves_status ves_shell_tensor_stiffness(const ves_shell_body *body, const ves_shel
     const ves_shell_kind *kind = body->kind;
     const target to = {columns, scratch->begin, column, K};
     int m = nodes_along(kind, 0), n = nodes_along(kind, 1);
-    if (!points_fill(body, material, scratch->row)) return VES_DEGENERATE;
+    if (!points_fill(body, material, scratch)) return VES_DEGENERATE;
     begins(kind->nodes, &to);
     sum_r(kind, scratch->row, scratch->line);
     for (int i = 0, two = 0; i < m; i++)
