@@ -21,8 +21,9 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
         if (p->measure[m].measure->shell && dear) VES_TRY(ves_shell_run(plan, index));
         ves_status status =
             p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]);
-        /* a plugin's own word for "cannot be measured"; only the plan cuts */
-        if (status >= VES_NO_SCALE || status == VES_CUT) status = VES_NO_NUMBER;
+        /* a plugin's own word for "cannot be measured"; only the plan cuts, and only modes of buckling are loose */
+        bool own = p->measure[m].measure->buckles && (status == VES_LOOSE || status == VES_NO_CONVERGENCE);
+        if ((status >= VES_NO_SCALE && !own) || status == VES_CUT) status = VES_NO_NUMBER;
         if (status == VES_OK && !isfinite(plan->value[m])) status = VES_NO_NUMBER;
         if (status == VES_NO_NUMBER) plan->numberless = m;
         VES_TRY(status);

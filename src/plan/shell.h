@@ -71,6 +71,9 @@ ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell);
 /* v of the place in the sector that stands for a place of the whole, where displacements are map times those there. */
 double ves_sector_place(const plan_sector *sector, double v, double map[3][3]);
 
+/* shell_loose.c: tells, "what: ...", how the shell of some level moves that was found loose last; false: none was. */
+bool ves_shell_loose_tell(const ves_plan *plan, const char *what, ves_diag *diag);
+
 /* shell_mesh.c: sheets and their nodes */
 ves_status ves_shell_mesh(ves_plan *plan, plan_shell *shell, ves_diag *diag);
 

@@ -1,7 +1,7 @@
 /* Why: what is behind a verdict that has no number, with its place in the file. None of it is hot: the design
  * is still bound, and is looked at again. */
 #include "base/vector.h"
-#include "plan/inside.h"
+#include "plan/shell.h"
 
 #include <math.h>
 
@@ -182,6 +182,7 @@ void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag 
         return;
     }
     if (status == VES_NO_NUMBER && number_tell(plan, what, diag)) return;
+    if (status == VES_LOOSE && ves_shell_loose_tell(plan, what, diag)) return;
     if (status == VES_BROKEN && broken_tell(plan, what, diag)) return;
     if ((status == VES_NOT_ELLIPTIC || status == VES_UNDETERMINED) &&
         ves_plan_elliptic_tell(plan, what, diag))

@@ -86,12 +86,14 @@ ves_status ves_shell_assemble(ves_shell *shell, const shell_layout *layout)
 {
     const shell_parts whole = {{layout->matrix->x}};
     ves_shell_parts_clear(layout, &whole);
+    ves_shell_firm_clear(shell);
     for (int i = 0; i < shell->elements; i++) {
         const shell_element *e = &shell->element[i];
         ves_shell_body body = ves_shell_gather(shell, e);
         int columns = ves_shell_columns_of(shell, layout, e);
         VES_TRY(ves_shell_stiffness(&body, &shell->input->material, columns, shell->column, &shell->scratch,
                                     shell->K));
+        ves_shell_firm_add(shell, e, columns);
         ves_shell_springs(shell, e, &body, columns);
         ves_shell_element_add(shell, layout, e, columns, &whole);
     }

@@ -236,26 +236,13 @@ static void mode_keep(ves_shell *shell, int index, int wave, double factor)
     for (int k = 0; most > 0 && k < size * layout->freedoms; k++) b->mode[k] /= sqrt(most);
 }
 
-/* A motion without strain has an energy that is rounding beside that of the diagonal, as in rigid.c. The mode's is 1. */
-static bool is_loose(const ves_shell *shell, const shell_layout *layout, int size)
-{
-    static const double ROUNDING = 1e-14;
-    const shell_buckling *b = shell->buckling;
-    const int *p = layout->matrix->p;
-    const double *x = b->factor == layout->factor ? layout->matrix->x : b->values[0];
-    double diagonal = 0;
-    for (int k = 0; k < layout->freedoms; k++)
-        for (int part = 0; part < size; part++)
-            diagonal += pow(b->found[size * k + part], 2) * x[size * p[k]];
-    return diagonal * ROUNDING > 1;
-}
-
 /* The least factor of a class; the mode is left in `found`. */
 static ves_status class_solve(ves_shell *shell, int which, int index, int wave, ves_shell_buckled *found)
 {
     shell_buckling *b = shell->buckling;
     static const double VALUE = 1e-4, MODE = 1e-7; /* a gradient errs as much as the mode */
     ves_lanczos_found top;
+    if (index || wave) VES_TRY(ves_shell_held(shell, &shell->layout[index], wave * b->angle));
     VES_TRY(prepare(shell, index, which));
     VES_TRY(class_factor(shell, index, wave));
     const ves_lanczos_pencil pencil = {.n = shell->layout[index].freedoms * (wave > 0 ? 2 : 1),
@@ -264,7 +251,6 @@ static ves_status class_solve(ves_shell *shell, int which, int index, int wave, 
                                        .apply = geometric_apply,
                                        .solve = stiffness_solve};
     VES_TRY(ves_lanczos_largest(&pencil, &b->work, &top, b->found));
-    if (top.value > 0 && is_loose(shell, &shell->layout[index], wave > 0 ? 2 : 1)) return VES_LOOSE;
     *found = (ves_shell_buckled){.factor = top.value > 0 ? 1 / top.value : HUGE_VAL,
                                  .symmetry = index,
                                  .wave = wave,

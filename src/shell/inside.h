@@ -42,6 +42,7 @@ typedef struct shell_layout {
 
 typedef struct shell_buckling shell_buckling;
 typedef struct shell_adjoint shell_adjoint;
+typedef struct shell_rigid shell_rigid;
 
 struct ves_shell {
     const ves_shell_model *model;
@@ -61,8 +62,7 @@ struct ves_shell {
     double *K;       /* [columns][columns] */
     double *strain;
     ves_shell_stresses stresses;
-    bool asked; /* whether it is held: `held` */
-    ves_status held;
+    shell_rigid *rigid;
     int stressed; /* the case that they are of, -1: none */
     cholmod_common common;
     shell_buckling *buckling; /* NULL: not wanted */
@@ -105,8 +105,12 @@ typedef struct shell_mode {
 } shell_mode;
 bool ves_shell_mode_kept(const ves_shell *shell, int which, shell_mode *mode);
 
-/* rigid.c: VES_LOOSE: some part of it may move as a rigid body. Of the matrix at hand. */
-ves_status ves_shell_held(ves_shell *shell);
+/* rigid.c: how firm the elements are: of the matrix shell->K of the element at hand, without springs. VES_LOOSE: some part
+ * of the shell may move as a rigid body, in a layout, the far side with a phase (0: none); of the nodes at hand. */
+ves_status ves_shell_rigid_make(ves_shell *shell, ves_arena *arena);
+void ves_shell_firm_clear(ves_shell *shell);
+void ves_shell_firm_add(ves_shell *shell, const shell_element *element, int columns);
+ves_status ves_shell_held(ves_shell *shell, const shell_layout *layout, double phase);
 
 /* adjoint.c */
 ves_status ves_shell_adjoint_make(ves_shell *shell, ves_arena *arena);

@@ -107,6 +107,16 @@ int ves_shell_freedoms(const ves_shell *shell);
  * over or has no thickness. VES_LOOSE: the supports let it move without strain. */
 ves_status ves_shell_solve(ves_shell *shell, const ves_shell_input *input);
 
+/* How it moves that is loose: along a way, or about it through a point; of the whole, or of what is connected with a sheet. */
+typedef struct ves_shell_motion {
+    bool turns, whole;
+    int sheet;
+    double way[3], at[3];
+    double firmness,
+        least; /* of springs against it, over that of the wall, and of those that are enough; 0: none */
+} ves_shell_motion;
+const ves_shell_motion *ves_shell_loose(const ves_shell *shell); /* NULL: it is not, or not as a rigid body */
+
 /* Of node s: displacement (m) and increment of the unit director (rad). */
 void ves_shell_displacement(const ves_shell *shell, int which, int sheet, int s, double U[3],
                             double director[3]);

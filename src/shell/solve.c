@@ -71,6 +71,7 @@ static ves_status build(ves_shell *shell, ves_arena *arena)
 {
     VES_TRY(kinds_make(shell, arena));
     VES_TRY(ves_shell_number(shell, arena));
+    VES_TRY(ves_shell_rigid_make(shell, arena));
     VES_TRY(scratch_make(shell, arena));
     for (int k = 0; k < shell->layouts; k++) VES_TRY(ves_shell_layout(shell, &shell->layout[k], arena));
     VES_TRY(factor_make(shell));
@@ -128,8 +129,7 @@ ves_status ves_shell_solve(ves_shell *shell, const ves_shell_input *input)
     omp_set_max_active_levels(0); /* CHOLMOD would start four threads for each of ours */
     for (int k = 0; k < shell->layouts; k++) ves_shell_pivots(shell, &shell->layout[k]);
     VES_TRY(ves_shell_assemble(shell, layout));
-    if (!shell->asked) shell->held = ves_shell_held(shell), shell->asked = true;
-    VES_TRY(shell->held);
+    VES_TRY(ves_shell_held(shell, layout, 0));
     ves_shell_loads(shell);
     if (!cholmod_factorize(layout->matrix, layout->factor, c) && c->status < 0) return VES_MEMORY;
     if (c->status == CHOLMOD_NOT_POSDEF) return VES_LOOSE;
