@@ -14,6 +14,7 @@ typedef struct whole {
     shell_case c;
     ves_shell_spring spring;
     double number[1], turn[3][3];
+    bool sprung, askew; /* the last node is on springs; in a frame of its own */
 } whole;
 
 static void tube_surface(const shell_case *c, double u, double v, double X[3])
@@ -81,6 +82,10 @@ static void whole_solve(whole *w, int order, bool swapped)
     double force[3];
     apply((const double(*)[3])w->turn, POINT, force);
     case_push(c, c->rows * c->columns - 1, force[0], force[1], force[2]);
+    static const double FRAME[3][3] = {{0.6, 0.8, 0}, {-0.48, 0.36, 0.8}, {0.64, -0.48, 0.6}};
+    ves_shell_node *last = &c->node[c->rows * c->columns - 1];
+    for (int i = 0; i < 3 && w->sprung; i++) last->spring[i] = 100 * (i + 1);
+    if (w->askew) memcpy(last->frame, FRAME, sizeof FRAME);
     cr_assert(case_solve(c) == VES_OK);
 }
 
@@ -219,6 +224,24 @@ Test(whole, work_and_equilibrium)
                       load[0][c], held[c]);
         free(force);
         whole_end(w);
+    }
+}
+
+/* Springs at a node are along x, y, z, whatever the frame that the node is held in: u' k u of them is the same. */
+Test(whole, springs_at_a_node)
+{
+    double U[3][3], director[3];
+    for (int k = 0; k < 3; k++) {
+        whole *w = whole_make();
+        w->sprung = k > 0, w->askew = k > 1;
+        whole_solve(w, 6, false);
+        ves_shell_displacement(w->c.shell, 0, 0, w->c.rows * w->c.columns - 1, U[k], director);
+        whole_end(w);
+    }
+    for (int c = 0; c < 3; c++) {
+        cr_assert(fabs(U[1][c] - U[2][c]) < 1e-9 * fabs(U[1][c]), "%.12g, in another frame %.12g", U[1][c],
+                  U[2][c]);
+        cr_assert(fabs(U[1][c]) < 0.99 * fabs(U[0][c]), "%g, without springs %g", U[1][c], U[0][c]);
     }
 }
 

@@ -60,17 +60,26 @@ double ves_shell_drilling(const ves_shell *shell, int node)
     return shell->model->node[node].fold ? DRILLING * shell->input->material.E * t * t * t : 0;
 }
 
-/* Springs at nodes, along x, y, z; a frame that is turned couples them, which is why frames of sprung nodes are not
- * (checked by who makes the model). */
+/* Of springs along x, y, z, between the directions in which a node moves. */
+static void node_springs_add(const shell_layout *layout, const ves_shell_node *node, const shell_freedom *f,
+                             double *x)
+{
+    const int *diagonal = layout->matrix->p;
+    for (int j = 0; j < 3; j++)
+        for (int i = j; i < 3 && f->moves[j] >= 0; i++)
+            for (int c = 0; c < 3 && f->moves[i] >= 0; c++)
+                x[diagonal[f->first + f->moves[j]] + f->moves[i] - f->moves[j]] +=
+                    node->spring[c] * node->frame[i][c] * node->frame[j][c];
+}
+
+/* Springs at nodes, and what stiffens folds. */
 void ves_shell_nodes_add(const ves_shell *shell, const shell_layout *layout, const shell_parts *to)
 {
     const int *diagonal = layout->matrix->p;
     const ves_shell_model *m = shell->model;
     for (int k = 0; k < m->nodes; k++) {
         const shell_freedom *f = &layout->freedom[k];
-        for (int i = 0; i < 3; i++)
-            if (f->moves[i] >= 0 && m->node[k].spring[i] > 0)
-                to->x[0][diagonal[f->first + f->moves[i]]] += m->node[k].spring[i];
+        node_springs_add(layout, &m->node[k], f, to->x[0]);
         for (int i = 0; m->node[k].fold && i < 3; i++)
             if (f->turns[i] >= 0) to->x[0][diagonal[f->first + f->turns[i]]] += ves_shell_drilling(shell, k);
     }
