@@ -48,6 +48,8 @@ ves_status ves_shell_adjoint_make(ves_shell *shell, ves_arena *arena)
     VES_TRY(vectors(arena, nodes, &a->twice));
     VES_TRY(vectors(arena, nodes, &a->none));
     VES_TRY(vectors(arena, nodes, &a->on_twice));
+    a->mean = ves_arena_take(arena, (size_t)shell->model->sheets, sizeof *a->mean);
+    if (!a->mean) return VES_MEMORY;
     return shell->model->buckling ? ves_adjoint_mode_make(shell, arena) : VES_OK;
 }
 
@@ -80,6 +82,16 @@ static void rotation(const shell_layout *layout, int node, const double *vector,
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 3 && f->turns[i] >= 0; c++)
             theta[c] += vector[f->first + f->turns[i]] * layout->pivot[node].axis[i][c];
+}
+
+/* And its displacement. */
+static void movement(const ves_shell *shell, int node, const shell_field *f, double U[3])
+{
+    const shell_freedom *freedom = &f->layout->freedom[node];
+    memset(U, 0, 3 * sizeof *U);
+    for (int i = 0; i < 3; i++)
+        for (int c = 0; c < 3 && freedom->moves[i] >= 0; c++)
+            U[c] += f->vector[freedom->first + freedom->moves[i]] * shell->model->node[node].frame[i][c];
 }
 
 static void rotation_at(const ves_shell *shell, const shell_field *f, int sheet, int s, double theta[3])
@@ -155,6 +167,15 @@ void ves_adjoint_frame(const ves_shell_table *t, int nodes, int q, const ves_she
 
 /* --- what J reads --- */
 
+/* Does J read a stress at one of so many points? */
+static bool is_read(const ves_shell_seed *seed, int at, int points)
+{
+    const double *of = seed->stress ? seed->stress[at][0] : NULL;
+    for (int k = 0; of && k < points * VES_SHELL_LEVELS * VES_STRESSES; k++)
+        if (of[k] != 0) return true;
+    return false;
+}
+
 /* Forces on the strains at the lattice from the seeds of stresses; adjoints of frames and material, when `to` is given.
  * at: the element's first point. */
 static void stresses_pull(const ves_shell *shell, const ves_shell_body *body, const ves_shell_seed *seed,
@@ -167,6 +188,7 @@ static void stresses_pull(const ves_shell *shell, const ves_shell_body *body, co
     for (int q = 0; q < lattice->points; q++) {
         ves_shell_frame frame;
         ves_law law = {.E = 0};
+        if (!is_read(seed, at + q, 1)) continue;
         ves_shell_frame_at(body, &lattice->table, q, &frame);
         for (int level = 0; level < VES_SHELL_LEVELS; level++) {
             double w[VES_STRESSES];
@@ -178,7 +200,7 @@ static void stresses_pull(const ves_shell *shell, const ves_shell_body *body, co
         }
         if (!to) continue;
         ves_adjoint_frame(&lattice->table, body->kind->nodes, q, &law.frame, a);
-        to->E += law.E, to->nu += law.nu;
+        ves_law_add(&law, to);
     }
 }
 
@@ -189,14 +211,14 @@ static void places_pull(const ves_shell *shell, const shell_element *e, const ve
     shell_adjoint *a = shell->adjoint;
     const ves_shell_points *lattice = &body->kind->lattice;
     const int nodes = body->kind->nodes;
+    double *thickness = seed->thickness && g->thickness ? g->thickness[e->sheet] : NULL;
     for (int q = 0; q < lattice->points; q++) {
         const double *N = lattice->table.N + q * nodes;
-        for (int k = 0; k < nodes; k++) {
-            for (int c = 0; c < 3; c++)
-                if (seed->X[c]) a->on_X[k][c] += N[k] * seed->X[c][at + q];
-            if (seed->thickness && g->thickness && g->thickness[e->sheet])
-                g->thickness[e->sheet][e->s[k]] += N[k] * seed->thickness[at + q];
-        }
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < nodes && seed->X[c] && seed->X[c][at + q] != 0; k++)
+                a->on_X[k][c] += N[k] * seed->X[c][at + q];
+        for (int k = 0; k < nodes && thickness && seed->thickness[at + q] != 0; k++)
+            thickness[e->s[k]] += N[k] * seed->thickness[at + q];
         if (!seed->area || seed->area[at + q] == 0) continue;
         ves_shell_frame f, on = {.V = {0}};
         double n[3];
@@ -248,13 +270,18 @@ static void right_fill(ves_shell *shell, int which, const ves_shell_seed *seed)
     const double *force = (const double *)shell->force->x + (size_t)which * shell->force->d;
     for (int k = 0; k < shell->layout[0].freedoms; k++) a->right[k] = seed->work * force[k];
     nodes_read(shell, seed, a->right);
-    for (int i = 0, at = 0; i < shell->elements && (seed->stress || a->fields > REAL); i++) {
+    for (int i = 0, at = 0; i < shell->elements && (seed->stress || seed->mean || a->fields > REAL); i++) {
         const shell_element *e = &shell->element[i];
+        const int points = shell->kind[e->sheet].lattice.points;
+        bool stressed = is_read(seed, at, points);
+        at += points;
+        if (!stressed && !seed->mean && a->fields == REAL) continue;
         ves_shell_body body = ves_shell_gather(shell, e);
         ves_adjoint_field(shell, e, f);
-        if (seed->stress) {
+        if (seed->mean) ves_shell_means_read(shell, e, &body, f->on_U);
+        if (stressed) {
             strains_take(shell, &body, &body.kind->lattice, f);
-            stresses_pull(shell, &body, seed, at, NULL);
+            stresses_pull(shell, &body, seed, at - points, NULL);
             ves_shell_pull(&body, &body.kind->lattice, f->force, &shell->scratch, f->on_U, f->on_A);
         }
         if (a->fields > REAL) ves_adjoint_mode_right(shell, e, &body);
@@ -264,7 +291,6 @@ static void right_fill(ves_shell *shell, int which, const ves_shell_seed *seed)
             a->right[shell->freedom_of[k]] +=
                 ves_dot(c->vector, c->turns ? f->on_A[c->node] : f->on_U[c->node]);
         }
-        at += body.kind->lattice.points;
     }
 }
 
@@ -302,7 +328,7 @@ static void stiffness_pull(const ves_shell *shell, const ves_shell_body *body, v
         ves_law_energy(&frame, &shell->input->material, -rule->weight[q], u->strain + at, dual->strain + at,
                        &law);
         ves_adjoint_frame(&rule->table, body->kind->nodes, q, &law.frame, a);
-        to->E += law.E, to->nu += law.nu;
+        ves_law_add(&law, to);
     }
     ves_adjoint_force(shell, body, rule, u->force, u);
     ves_adjoint_force(shell, body, rule, dual->force, dual);
@@ -349,7 +375,7 @@ static void element_give(ves_shell *shell, const shell_element *e, int which, co
     memset(a->on_V, 0, nodes * sizeof *a->on_V);
     for (int k = 0; k < a->fields; k++) ves_adjoint_field(shell, e, &a->field[k]);
     stiffness_pull(shell, &body, &law);
-    if (seed->stress) {
+    if (is_read(seed, at, body.kind->lattice.points)) {
         strains_take(shell, &body, &body.kind->lattice, &a->field[STATE]);
         stresses_pull(shell, &body, seed, at, &law);
         ves_adjoint_force(shell, &body, &body.kind->lattice, a->field[STATE].force, &a->field[STATE]);
@@ -363,11 +389,13 @@ static void element_give(ves_shell *shell, const shell_element *e, int which, co
                              .dual = (const double(*)[3])a->field[DUAL].U,
                              .work = (const double(*)[3])a->work,
                              .on_X = a->on_X,
+                             .spring = a->spring,
                              .load = g->load ? &g->load[e->sheet] : NULL};
     ves_shell_loads_pull(shell, e, &body, &side);
+    ves_shell_means_pull(shell, e, &body, side.U, a->on_X);
     if (a->fields > REAL) ves_adjoint_mode_give(shell, which, e, &body, &law, side.load);
     nodes_give(shell, e, &body, g);
-    g->E += law.E, g->nu += law.nu;
+    g->E += law.E, g->nu += law.nu, g->shear += law.shear;
 }
 
 /* Director increments theta x n that J reads. */
@@ -441,6 +469,22 @@ static void drilling_give(const ves_shell *shell, ves_shell_gradient *g)
     }
 }
 
+/* Springs at nodes: of - lambda' K u, and of the mode. */
+static void springs_give(const ves_shell *shell, const ves_shell_gradient *g)
+{
+    const shell_adjoint *a = shell->adjoint;
+    for (int node = 0; node < shell->model->nodes && g->node_spring; node++) {
+        double u[3], dual[3], *on = g->node_spring[node];
+        movement(shell, node, &a->field[STATE], u);
+        movement(shell, node, &a->field[DUAL], dual);
+        for (int c = 0; c < 3; c++) on[c] -= u[c] * dual[c];
+        for (int k = REAL; k < a->fields; k++) {
+            movement(shell, node, &a->field[k], u);
+            for (int c = 0; c < 3; c++) on[c] += a->weight * a->factor * u[c] * u[c];
+        }
+    }
+}
+
 /* Forces at nodes. */
 static void points_give(const ves_shell *shell, int which, const ves_shell_seed *seed,
                         const ves_shell_gradient *g)
@@ -464,7 +508,9 @@ ves_status ves_shell_adjoint(ves_shell *shell, int which, const ves_shell_seed *
     for (int k = 0; k < shell->model->sheets; k++)
         if (shell->kind[k].plus) return VES_ABSENT;
     a->fields = REAL;
-    if (seed->factor != 0 && !ves_adjoint_mode_begin(shell, which, seed->factor)) return VES_DEGENERATE;
+    a->spring = g->spring;
+    if (seed->factor != 0) VES_TRY(ves_adjoint_mode_begin(shell, which, seed->factor));
+    ves_shell_means_begin(shell, which, seed);
     a->field[STATE].vector = ves_shell_state(shell, which);
     right_fill(shell, which, seed);
     VES_TRY(solve(shell));
@@ -479,6 +525,7 @@ ves_status ves_shell_adjoint(ves_shell *shell, int which, const ves_shell_seed *
     directors_give(shell, seed, g);
     rotations_give(shell, g);
     drilling_give(shell, g);
+    springs_give(shell, g);
     points_give(shell, which, seed, g);
     return VES_OK;
 }

@@ -14,6 +14,7 @@ typedef struct ves_shell_seed {
     const double *const (*U)[3], *const (*director)[3];     /* [sheets][s] ves_shell_displacement */
     const double (*stress)[VES_SHELL_LEVELS][VES_STRESSES]; /* [points] of ves_shell_stress, as the rest */
     const double *X[3], *thickness, *area;                  /* [points] */
+    const double (*mean)[VES_SHELL_EDGES][3];               /* [sheets] ves_shell_edge_mean */
     double factor; /* of ves_shell_buckling of this case, called before; it must stand alone in its class */
     double work;   /* of ves_shell_work */
 } ves_shell_seed;
@@ -30,11 +31,15 @@ typedef struct ves_shell_gradient {
     double *const *thickness;                   /* [sheets][s] */
     const ves_shell_load_gradient *load;        /* [sheets] */
     double (*force)[3];                         /* [points of the input] */
-    double E, nu;
+    double (*spring)[3], (*node_spring)[3];     /* [springs], [nodes] of the model */
+    double E, nu, shear;
 } ves_shell_gradient;
 
 /* VES_DEGENERATE: seed->factor, and there is no mode of this case. VES_ABSENT: a sheet of order 1, whose interpolation of strains depends on the element's shape. */
 ves_status ves_shell_adjoint(ves_shell *shell, int which, const ves_shell_seed *seed,
                              ves_shell_gradient *gradient);
+
+/* Adds `by` times what the length of an edge (ves_shell_length) does. */
+void ves_shell_length_pull(ves_shell *shell, int sheet, int edge, double by, double *const X[3]);
 
 #endif

@@ -20,6 +20,11 @@ typedef struct shell_field {
     double *strain, *force;               /* [points][VES_GENERAL] */
 } shell_field;
 
+/* Of an edge: d J / d mean displacement along it; that mean, and the length. */
+typedef struct shell_mean {
+    double on[3], mean[3], length; /* length 0: not read */
+} shell_mean;
+
 struct shell_adjoint {
     double *right; /* [freedoms] dJ/du */
     shell_field field[FIELDS];
@@ -30,6 +35,8 @@ struct shell_adjoint {
     double (*twice)[3], (*none)[3], (*on_twice)[3]; /* likewise: second order of directors */
     double *second;                                 /* [points][VES_GENERAL] strains of second order */
     ves_shell_kind *free;                           /* [sheets] of strains that are not tied */
+    shell_mean (*mean)[VES_SHELL_EDGES];            /* [sheets] */
+    double (*spring)[3]; /* [springs of the model] of the gradient at hand, or NULL */
     cholmod_dense *solution, *Y, *E;
 };
 
@@ -46,10 +53,10 @@ void ves_adjoint_frame(const ves_shell_table *table, int nodes, int q, const ves
 void ves_adjoint_rotation(const ves_shell *shell, int sheet, int s, const double on[3],
                           const shell_field *field);
 
-/* adjoint_mode.c: of the factor of buckling. begin: sets up the fields of the mode; false: there is none. right: what the
+/* adjoint_mode.c: of the factor of buckling. begin: sets up the fields of the mode. right: what the
  * prestress of an element does on its displacements, left in on_U and on_A of STATE. give: all else. */
 ves_status ves_adjoint_mode_make(ves_shell *shell, ves_arena *arena);
-bool ves_adjoint_mode_begin(ves_shell *shell, int which, double weight);
+ves_status ves_adjoint_mode_begin(ves_shell *shell, int which, double weight);
 void ves_adjoint_mode_right(ves_shell *shell, const shell_element *element, const ves_shell_body *body);
 void ves_adjoint_mode_give(ves_shell *shell, int which, const shell_element *element,
                            const ves_shell_body *body, ves_law *law, const ves_shell_load_gradient *load);

@@ -32,11 +32,11 @@ ves_status ves_adjoint_mode_make(ves_shell *shell, ves_arena *arena)
     return a->part[0] && a->part[1] && a->second ? VES_OK : VES_MEMORY;
 }
 
-bool ves_adjoint_mode_begin(ves_shell *shell, int which, double weight)
+ves_status ves_adjoint_mode_begin(ves_shell *shell, int which, double weight)
 {
     shell_adjoint *a = shell->adjoint;
     shell_mode mode;
-    if (!ves_shell_mode_kept(shell, which, &mode)) return false;
+    VES_TRY(ves_shell_mode_take(shell, which, &mode));
     a->fields = REAL + mode.parts, a->factor = mode.factor, a->weight = weight;
     for (int part = 0; part < mode.parts; part++) {
         shell_field *f = &a->field[REAL + part];
@@ -48,7 +48,7 @@ bool ves_adjoint_mode_begin(ves_shell *shell, int which, double weight)
         f->co = mode.parts > 1 ? cos(mode.phase) : 1;
         f->mix = mode.parts > 1 ? (part ? 1 : -1) * sin(mode.phase) : 0;
     }
-    return true;
+    return VES_OK;
 }
 
 static ves_shell_body as_body(const ves_shell_kind *kind, double (*X)[3], double (*V)[3])
@@ -122,7 +122,7 @@ static void law_add(const ves_shell *shell, const ves_shell_body *body, double f
         ves_law_energy(&frame, &shell->input->material, factor * rule->weight[q], strain[0] + q * VES_GENERAL,
                        strain[1] + q * VES_GENERAL, &law);
         ves_adjoint_frame(&rule->table, body->kind->nodes, q, &law.frame, shell->adjoint);
-        to->E += law.E, to->nu += law.nu;
+        ves_law_add(&law, to);
     }
 }
 
@@ -187,6 +187,7 @@ void ves_adjoint_mode_give(ves_shell *shell, int which, const shell_element *e, 
                                  .U = (const double(*)[3])f->U,
                                  .dual = (const double(*)[3])a->work,
                                  .on_X = a->on_X,
+                                 .spring = a->spring,
                                  .load = load};
         ves_shell_springs_pull(shell, e, body, &side);
         ves_shell_follow_pull(shell, e, body, &side, -a->weight * a->factor * a->factor);

@@ -28,7 +28,11 @@ struct shell_buckling {
     int mode_layout;
     int mode_wave; /* > 0: it is complex */
     int mode_case;
+    bool mode_fine; /* as a gradient needs it */
     double mode_factor, mode_scale;
+    struct {
+        int layout, wave; /* -1: no mode */
+    } * least;            /* [cases] the class of the least factor */
 };
 
 /* --- what is made once --- */
@@ -80,6 +84,9 @@ ves_status ves_shell_buckling_make(ves_shell *shell, ves_arena *arena)
     if (!b) return VES_MEMORY;
     shell->buckling = b;
     b->prepared = -1, b->mode_layout = -1;
+    b->least = ves_arena_take(arena, (size_t)shell->model->cases, sizeof *b->least);
+    if (!b->least) return VES_MEMORY;
+    ves_shell_buckling_stale(shell);
     b->angle = turns(shell) ? turn_angle(shell) : VES_TWO_PI;
     b->waves = (int)lround(VES_TWO_PI / b->angle) / (rings(shell) ? 16 : 2) + 1;
     if (!turns(shell)) b->waves = 1;
@@ -113,7 +120,10 @@ void ves_shell_buckling_free(ves_shell *shell)
 
 void ves_shell_buckling_stale(ves_shell *shell)
 {
-    if (shell->buckling) shell->buckling->prepared = shell->buckling->mode_layout = -1;
+    shell_buckling *b = shell->buckling;
+    if (!b) return;
+    b->prepared = b->mode_layout = -1;
+    for (int k = 0; k < shell->model->cases; k++) b->least[k].layout = -1;
 }
 
 /* --- the matrices of a layout, and of a class --- */
@@ -215,7 +225,7 @@ static ves_status stiffness_solve(void *of, const double *r, double *w)
 
 /* --- classes --- */
 
-static void mode_keep(ves_shell *shell, int index, int wave, double factor)
+static void mode_keep(ves_shell *shell, int index, int wave, bool fine, double factor)
 {
     shell_buckling *b = shell->buckling;
     const shell_layout *layout = &shell->layout[index];
@@ -224,6 +234,7 @@ static void mode_keep(ves_shell *shell, int index, int wave, double factor)
     memcpy(b->mode, b->found, sizeof *b->mode * (size_t)(size * layout->freedoms));
     b->mode_layout = isfinite(factor) ? index : -1;
     b->mode_wave = wave, b->mode_factor = factor, b->mode_case = b->which;
+    b->mode_fine = fine;
     for (int k = 0; k < shell->model->nodes; k++) {
         const shell_freedom *f = &layout->freedom[k];
         double square = 0;
@@ -236,17 +247,19 @@ static void mode_keep(ves_shell *shell, int index, int wave, double factor)
     for (int k = 0; most > 0 && k < size * layout->freedoms; k++) b->mode[k] /= sqrt(most);
 }
 
-/* The least factor of a class; the mode is left in `found`. */
-static ves_status class_solve(ves_shell *shell, int which, int index, int wave, ves_shell_buckled *found)
+/* The least factor of a class; the mode is left in `found`. fine: a gradient errs as much as the mode, a factor as much as
+ * its square. */
+static ves_status class_solve(ves_shell *shell, int which, int index, int wave, bool fine,
+                              ves_shell_buckled *found)
 {
     shell_buckling *b = shell->buckling;
-    static const double VALUE = 1e-4, MODE = 1e-7; /* a gradient errs as much as the mode */
+    static const double VALUE = 1e-4, MODE = 1e-7;
     ves_lanczos_found top;
     if (index || wave) VES_TRY(ves_shell_held(shell, &shell->layout[index], wave * b->angle));
     VES_TRY(prepare(shell, index, which));
     VES_TRY(class_factor(shell, index, wave));
     const ves_lanczos_pencil pencil = {.n = shell->layout[index].freedoms * (wave > 0 ? 2 : 1),
-                                       .close = shell->model->gradients ? MODE : VALUE,
+                                       .close = fine ? MODE : VALUE,
                                        .of = shell,
                                        .apply = geometric_apply,
                                        .solve = stiffness_solve};
@@ -262,8 +275,8 @@ static ves_status class_solve(ves_shell *shell, int which, int index, int wave, 
 ves_status ves_shell_buckling_class(ves_shell *shell, int which, int symmetry, int wave,
                                     ves_shell_buckled *found)
 {
-    VES_TRY(class_solve(shell, which, symmetry, wave, found));
-    mode_keep(shell, symmetry, wave, found->factor);
+    VES_TRY(class_solve(shell, which, symmetry, wave, false, found));
+    mode_keep(shell, symmetry, wave, false, found->factor);
     return VES_OK;
 }
 
@@ -294,21 +307,23 @@ static double waves_enough(const ves_shell *shell)
 ves_status ves_shell_buckling(ves_shell *shell, int which, ves_shell_buckled *found)
 {
     enum { RISING = 5 };
+    shell_buckling *b = shell->buckling;
     bool ring = rings(shell);
     double enough = ring ? waves_enough(shell) : HUGE_VAL;
     int classes = 0, solves = 0;
     *found = (ves_shell_buckled){.factor = HUGE_VAL};
-    shell->buckling->mode_layout = -1;
+    b->mode_layout = b->least[which].layout = -1;
     for (int index = 0; index < shell->layouts; index++) {
         int above = 0;
-        for (int wave = 0; wave < shell->buckling->waves; wave++) {
+        for (int wave = 0; wave < b->waves; wave++) {
             ves_shell_buckled at;
-            VES_TRY(class_solve(shell, which, index, wave, &at));
+            VES_TRY(class_solve(shell, which, index, wave, false, &at));
             classes++, solves += at.solves;
             above = at.factor > 1.5 * found->factor ? above + 1 : 0;
             if (at.factor < found->factor) {
                 *found = at;
-                mode_keep(shell, index, wave, at.factor);
+                mode_keep(shell, index, wave, false, at.factor);
+                b->least[which].layout = index, b->least[which].wave = wave;
             }
             if (wave >= enough && (above >= RISING || !isfinite(found->factor))) break;
         }
@@ -317,17 +332,25 @@ ves_status ves_shell_buckling(ves_shell *shell, int which, ves_shell_buckled *fo
     return VES_OK;
 }
 
-bool ves_shell_mode_kept(const ves_shell *shell, int which, shell_mode *mode)
+ves_status ves_shell_mode_take(ves_shell *shell, int which, shell_mode *mode)
 {
-    const shell_buckling *b = shell->buckling;
-    if (!b || b->mode_layout < 0 || b->mode_case != which) return false;
-    *mode = (shell_mode){.layout = b->mode_layout,
-                         .parts = b->mode_wave > 0 ? 2 : 1,
+    shell_buckling *b = shell->buckling;
+    ves_shell_buckled found;
+    if (!b || b->least[which].layout < 0) return VES_DEGENERATE;
+    int index = b->least[which].layout, wave = b->least[which].wave;
+    bool kept = b->mode_fine && b->mode_case == which && b->mode_layout == index && b->mode_wave == wave;
+    if (!kept) {
+        VES_TRY(class_solve(shell, which, index, wave, true, &found));
+        mode_keep(shell, index, wave, true, found.factor);
+    }
+    if (b->mode_layout < 0) return VES_DEGENERATE;
+    *mode = (shell_mode){.layout = index,
+                         .parts = wave > 0 ? 2 : 1,
                          .factor = b->mode_factor,
-                         .phase = b->mode_wave * b->angle,
+                         .phase = wave * b->angle,
                          .scale = b->mode_scale,
                          .vector = b->mode};
-    return true;
+    return VES_OK;
 }
 
 void ves_shell_mode(const ves_shell *shell, int sheet, int s, double U[2][3])

@@ -97,13 +97,14 @@ bool ves_shell_is_far(const ves_shell *shell, int sheet, int s);
 ves_status ves_shell_buckling_make(ves_shell *shell, ves_arena *arena);
 void ves_shell_buckling_free(ves_shell *shell);
 void ves_shell_buckling_stale(ves_shell *shell);
-/* The mode that is kept, if it is of this case: of norm 1 in K, parts in pairs when there are two; phase: to the far side. */
+/* The mode of a case that ves_shell_buckling was called for, as good as a gradient needs it, which is better than the
+ * factor does: of norm 1 in K, parts in pairs when there are two; phase: to the far side. VES_DEGENERATE: there is none. */
 typedef struct shell_mode {
     int layout, parts;
     double factor, phase, scale; /* times vector: of norm 1 */
     const double *vector;
 } shell_mode;
-bool ves_shell_mode_kept(const ves_shell *shell, int which, shell_mode *mode);
+ves_status ves_shell_mode_take(ves_shell *shell, int which, shell_mode *mode);
 
 /* rigid.c: how firm the elements are: of the matrix shell->K of the element at hand, without springs. VES_LOOSE: some part
  * of the shell may move as a rigid body, in a layout, the far side with a phase (0: none); of the nodes at hand. */

@@ -62,17 +62,19 @@ static void vary(const tensor s, const tensor e, tensor H)
         }
 }
 
-/* What the stress of b does on a changes with E and nu: sigma = E (e / (1 + nu) + nu tr e / (1 - nu^2)) in the plane. */
+/* What the stress of b does on a changes with E, nu and shear: sigma = E (e / (1 + nu) + nu tr e / (1 - nu^2)) in the
+ * plane. */
 static void material_add(const ves_shell_material *m, double factor, const tensor a, const tensor b,
                          ves_law *to)
 {
-    double nu = m->nu, p = 1 + nu, q = 1 - nu, same = 0, across, trace;
+    double nu = m->nu, p = 1 + nu, q = 1 - nu, same = 0, crossed, across, trace;
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++) same += a[i][j] * b[i][j];
     trace = (a[0][0] + a[1][1]) * (b[0][0] + b[1][1]);
-    across = 2 * m->shear * (a[0][2] * b[0][2] + a[1][2] * b[1][2]);
+    crossed = 2 * (a[0][2] * b[0][2] + a[1][2] * b[1][2]), across = m->shear * crossed;
     to->E += factor * ((same + across) / p + nu * trace / (p * q));
     to->nu += factor * m->E * (-(same + across) / (p * p) + (1 + nu * nu) * trace / (p * p * q * q));
+    to->shear += factor * m->E * crossed / p;
 }
 
 /* tr(L H) = sum of (H' g^j) . dg_j. */

@@ -14,8 +14,14 @@
 /* Adjoints of what the law is made of. */
 typedef struct ves_law {
     ves_shell_frame frame;
-    double E, nu;
+    double E, nu, shear;
 } ves_law;
+
+/* Adds those of the material alone. */
+static inline void ves_law_add(const ves_law *from, ves_law *to)
+{
+    to->E += from->E, to->nu += from->nu, to->shear += from->shear;
+}
 
 /* Adds those of factor * a' G b, the strains held (ves_lamina_forces has G). */
 void ves_law_energy(const ves_shell_frame *frame, const ves_shell_material *material, double factor,

@@ -1,6 +1,7 @@
 #include "shell/side.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/vector.h"
 
@@ -129,7 +130,10 @@ void ves_shell_springs_pull(const ves_shell *shell, const shell_element *e, cons
             double u[3], w[3], density = 0;
             line_field(&l, q, of->U, u);
             line_field(&l, q, of->dual, w);
-            for (int c = 0; c < 3; c++) density -= spring->stiffness[c] * u[c] * w[c];
+            for (int c = 0; c < 3; c++) {
+                density -= spring->stiffness[c] * u[c] * w[c];
+                if (of->spring) of->spring[i][c] -= l.weight[q] * l.length[q] * u[c] * w[c];
+            }
             length_pull(&l, q, density, of->on_X);
         }
     }
@@ -141,4 +145,74 @@ void ves_shell_loads_pull(const ves_shell *shell, const shell_element *e, const 
     surface_pull(shell, e, body, of);
     for (int edge = 0; edge < VES_SHELL_EDGES; edge++) line_pull(shell, e, body, edge, of);
     ves_shell_springs_pull(shell, e, body, of);
+}
+
+void ves_shell_length_pull(ves_shell *shell, int sheet, int edge, double by, double *const X[3])
+{
+    for (int i = 0; i < shell->elements; i++) {
+        const shell_element *e = &shell->element[i];
+        shell_line l;
+        if (e->sheet != sheet || !ves_shell_on_edge(shell, e, edge)) continue;
+        ves_shell_body body = ves_shell_gather(shell, e);
+        ves_shell_line_at(&body, edge, &l);
+        for (int q = 0; q < l.count; q++)
+            for (int k = 0; k < l.count; k++)
+                for (int c = 0; c < 3 && X[c]; c++)
+                    X[c][e->s[l.node[k]]] += by * l.weight[q] * l.slope[q][k] * l.t[q][c] / l.length[q];
+    }
+}
+
+/* --- means along edges --- */
+
+void ves_shell_means_begin(ves_shell *shell, int which, const ves_shell_seed *seed)
+{
+    for (int sheet = 0; sheet < shell->model->sheets; sheet++)
+        for (int edge = 0; edge < VES_SHELL_EDGES; edge++) {
+            shell_mean *m = &shell->adjoint->mean[sheet][edge];
+            m->length = 0;
+            if (!seed->mean) continue;
+            memcpy(m->on, seed->mean[sheet][edge], sizeof m->on);
+            if (m->on[0] == 0 && m->on[1] == 0 && m->on[2] == 0) continue;
+            m->length = ves_shell_length(shell, shell->input, sheet, edge);
+            ves_shell_edge_mean(shell, which, sheet, edge, m->mean);
+        }
+}
+
+/* The edge of an element's side, or NULL where nothing is read there. */
+static const shell_mean *mean_at(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                                 int edge, shell_line *l)
+{
+    const shell_mean *m = &shell->adjoint->mean[e->sheet][edge];
+    if (m->length == 0 || !ves_shell_on_edge(shell, e, edge)) return NULL;
+    ves_shell_line_at(body, edge, l);
+    return m;
+}
+
+void ves_shell_means_read(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                          double (*on_U)[3])
+{
+    for (int edge = 0; edge < VES_SHELL_EDGES; edge++) {
+        shell_line l;
+        const shell_mean *m = mean_at(shell, e, body, edge, &l);
+        for (int q = 0; m && q < l.count; q++)
+            for (int k = 0; k < l.count; k++)
+                for (int c = 0; c < 3; c++)
+                    on_U[l.node[k]][c] += l.weight[q] * l.length[q] * l.N[q][k] * m->on[c] / m->length;
+    }
+}
+
+/* mean = integral of u over the length: a longer piece counts more. */
+void ves_shell_means_pull(const ves_shell *shell, const shell_element *e, const ves_shell_body *body,
+                          const double (*U)[3], double (*on_X)[3])
+{
+    for (int edge = 0; edge < VES_SHELL_EDGES; edge++) {
+        shell_line l;
+        const shell_mean *m = mean_at(shell, e, body, edge, &l);
+        for (int q = 0; m && q < l.count; q++) {
+            double u[3], more = 0;
+            line_field(&l, q, U, u);
+            for (int c = 0; c < 3; c++) more += m->on[c] * (u[c] - m->mean[c]) / m->length;
+            length_pull(&l, q, more, on_X);
+        }
+    }
 }
