@@ -333,6 +333,39 @@ Test(formula, kinks_take_the_branch_and_poles_give_no_trap)
     ves_arena_destroy(&arena);
 }
 
+/* It changes its sign where the condition does, and there alone. */
+Test(formula, margins_follow_the_border_of_a_condition)
+{
+    static const char *const conditions[] = {"u < v",
+                                             "u >= a*v^2 and not v > u^3",
+                                             "u > 0.2 or (v <= b*u and u + v > a)",
+                                             "if(u < 0, v > c*u, v + u^2 > 1)",
+                                             "not (u > v or u < -v) and 1 < 2",
+                                             "not (not (u*v > 0.1))",
+                                             "u == v or (v != 7 and u + v > c/3)"};
+    ves_arena arena = {0};
+    double room[ROOM];
+    for (int k = 0; k < COUNT(conditions); k++) {
+        const ves_formula *f = compiled(conditions[k], &plain, &arena), *m = ves_formula_margin(f, &arena);
+        int holds = 0, all = 0;
+        for (double u = -1.03; u < 1; u += 0.0471)
+            for (double v = -1.01; v < 1; v += 0.0513, all++) {
+                const double at[2] = {u, v};
+                bool want = ves_formula_eval(f, slots, at, room) != 0;
+                double margin = ves_formula_eval(m, slots, at, room);
+                cr_assert(want ? margin > 0 : margin < 0, "%s at %g %g: %d, %g", conditions[k], u, v, want,
+                          margin);
+                holds += want;
+            }
+        cr_assert(holds > 0 && holds < all, "%s: %d of %d", conditions[k], holds, all);
+    }
+    cr_assert(evaluated(ves_formula_margin(compiled("a > c", &plain, &arena), &arena)) ==
+              slots[0] - slots[2]);
+    cr_assert(evaluated(ves_formula_margin(compiled("a*u", &plain, &arena), &arena)) ==
+              fabs(slots[0] * arguments[0]));
+    ves_arena_destroy(&arena);
+}
+
 Test(formula, constants_and_uses_are_known)
 {
     ves_arena arena = {0};

@@ -77,6 +77,11 @@ const ves_formula *ves_formula_constant(double value, ves_arena *arena);
  * the value takes. */
 const ves_formula *ves_formula_derivative(const ves_formula *formula, int argument, ves_arena *arena);
 
+/* Of a condition: a number that is positive where it holds, negative where it does not, and 0 where its border is:
+ * comparisons as differences, `and` and `or` as the smaller and the larger. By its derivative the border is followed.
+ * NULL when out of memory. */
+const ves_formula *ves_formula_margin(const ves_formula *formula, ves_arena *arena);
+
 ves_dim ves_formula_dim(const ves_formula *formula);
 bool ves_formula_has_units(const ves_formula *formula); /* of some dimension: deg, rad and % do not count */
 bool ves_formula_is_constant(const ves_formula *formula, double *value); /* value may be NULL */
