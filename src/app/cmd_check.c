@@ -184,7 +184,9 @@ static void costs(const checked *c)
     if (!isnan(c->gradient_time))
         printf(", %s with gradients", app_screen_time(c->gradient_time, gradient));
     else if (run->problem->variables && !c->gradients)
-        printf("; a measure has no gradient");
+        printf("; %s", run->problem->shell && run->problem->shell->mesh.order == 1
+                           ? "shells of order 1 have no gradient"
+                           : "a measure has no gradient");
     fputc('\n', stdout);
 }
 

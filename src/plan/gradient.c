@@ -34,6 +34,7 @@ ves_status ves_plan_sweep(ves_plan *plan, int index, plan_program which, double 
         p->measure[m].measure->gradient(&in->input, plan->measure_adjoint[m], in->adjoint,
                                         plan->block_adjoint);
     }
+    worst = ves_shell_sweep(plan, index);
     for (int k = 0; k < l->sites; k++) {
         ves_status status = ves_site_scatter(plan, &l->site[k], by_similarity);
         if (status != VES_OK) worst = status;

@@ -155,6 +155,10 @@ ves_status ves_shell_begin(ves_plan *plan, int level, ves_diag *diag);
 ves_status ves_shell_sites(ves_plan *plan, int level);
 ves_status ves_shell_finish(ves_plan *plan, int level, ves_diag *diag);
 ves_status ves_shell_run(ves_plan *plan, int level);
+/* Do the elements have gradients? (shell/adjoint.h) */
+bool ves_shell_differentiable(const ves_plan *plan);
+/* shell_gradient.c: from what measures read of it to the adjoints of its sites and to block_adjoint. */
+ves_status ves_shell_sweep(ves_plan *plan, int level);
 void ves_shell_end(ves_plan *plan);
 
 /* level.c. face: its sites take the sides of their patches. */
@@ -195,6 +199,7 @@ bool ves_plan_holds(ves_plan *plan, const ves_formula *formula);
 
 /* pose.c: what ves_plan_search hands out */
 ves_status ves_plan_pose(ves_plan *plan);
+bool ves_plan_differentiable(const ves_plan *plan); /* has every judged measure a gradient? */
 
 /* judge.c: every measure at x, in plan->value */
 ves_status ves_plan_measure_all(ves_plan *plan, const double *x, int level);

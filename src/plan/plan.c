@@ -262,6 +262,7 @@ static ves_status build(ves_plan *plan, const int quadrature[2], ves_diag *diag)
         for (int d = 0; d < 2; d++) plan->level[k].quadrature[d] = quadrature[d] << k;
         VES_TRY(ves_plan_level_build(plan, k, diag));
     }
+    plan->gradients = ves_plan_differentiable(plan);
     VES_TRY(ves_plan_refer(plan, diag));
     VES_TRY(ves_plan_sizes(plan));
     for (int m = 0; m < p->measures; m++) plan->value[m] = 0;

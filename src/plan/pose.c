@@ -9,6 +9,18 @@ enum { ALONG = 5, AROUND = 16, NODES = ALONG * AROUND, PLANES = 3 * VES_FIELDS }
 
 static const double ALIKE = 1e-3;
 
+bool ves_plan_differentiable(const ves_plan *plan)
+{
+    const ves_problem *p = plan->problem;
+    for (int m = 0; m < p->measures; m++) {
+        const ves_measure *measure = p->measure[m].measure;
+        if (!plan->runs[PROGRAM_JUDGE][m] && !plan->runs[PROGRAM_SCALE][m]) continue;
+        if (!measure->gradient) return false;
+        if (measure->shell && measure->cost > 0 && !ves_shell_differentiable(plan)) return false;
+    }
+    return true;
+}
+
 ves_status ves_plan_pose(ves_plan *plan)
 {
     const ves_problem *p = plan->problem;
@@ -26,10 +38,6 @@ ves_status ves_plan_pose(ves_plan *plan)
         plan->name[k] = v->name;
     }
     for (int k = 0; k < p->constraints; k++) plan->equality[k] = p->constraint[k].relation == VES_EQUAL;
-    plan->gradients = true;
-    for (int m = 0; m < p->measures; m++)
-        if (plan->runs[PROGRAM_JUDGE][m] || plan->runs[PROGRAM_SCALE][m])
-            plan->gradients = plan->gradients && p->measure[m].measure->gradient;
     size_t points = p->scale ? (size_t)(3 * NODES * p->patches) : 0;
     plan->shape[0] = ves_arena_doubles(a, points);
     plan->shape[1] = ves_arena_doubles(a, points);

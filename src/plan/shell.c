@@ -165,6 +165,14 @@ static void input_fill(ves_plan *plan, plan_shell *shell)
     ves_shell_loads_fill(plan, shell);
 }
 
+bool ves_shell_differentiable(const ves_plan *plan)
+{
+    const plan_shell *shell = plan->level[0].shell;
+    for (int k = 0; k < shell->def->parts; k++)
+        if (shell->sheet[k].order[0] < 2) return false;
+    return true;
+}
+
 /* Once the sites have their planes. */
 ves_status ves_shell_finish(ves_plan *plan, int index, ves_diag *diag)
 {
@@ -177,9 +185,10 @@ ves_status ves_shell_finish(ves_plan *plan, int index, ves_diag *diag)
     VES_TRY(ves_shell_hold(plan, shell, diag));
     VES_TRY(ves_shell_loads_make(plan, shell));
     model_fill(shell);
+    shell->model.gradients = !plan->trial && ves_plan_differentiable(plan);
     VES_TRY(ves_shell_create(&shell->model, &shell->input, &plan->arena, &shell->shell));
     view_fill(plan, shell);
-    return VES_OK;
+    return shell->model.gradients ? ves_shell_slopes_make(plan, shell) : VES_OK;
 }
 
 void ves_shell_end(ves_plan *plan)

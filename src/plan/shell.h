@@ -4,6 +4,7 @@
 #define VES_PLAN_SHELL_H
 
 #include "plan/inside.h"
+#include "shell/adjoint.h"
 #include "shell/view.h"
 
 enum { SHELL_DESIGNS = 3 }; /* at which is looked what is always so: the start, and two drawn */
@@ -30,6 +31,8 @@ typedef struct plan_shell_part {
     double *thickness;
 } plan_shell_part;
 
+typedef struct plan_shell_slopes plan_shell_slopes; /* shell_gradient.c */
+
 struct plan_shell {
     const ves_shell_def *def;
     int level;
@@ -55,8 +58,9 @@ struct plan_shell {
     const int **weld;
     const bool **far;
     ves_shell *shell;
-    bool solved;        /* since the sites were sampled */
-    ves_status outcome; /* of that */
+    plan_shell_slopes *slopes; /* NULL: there are no gradients */
+    bool solved;               /* since the sites were sampled */
+    ves_status outcome;        /* of that */
     ves_shell_view view;
 };
 
@@ -89,8 +93,26 @@ int ves_shell_place(const ves_plan *plan, const plan_shell *shell, const ves_she
 /* shell_load.c: planes that loads need, and what fills them */
 ves_status ves_shell_loads_make(ves_plan *plan, plan_shell *shell);
 void ves_shell_loads_fill(ves_plan *plan, plan_shell *shell);
-/* A formula of x, y, z, u, v at node s of a part. */
+/* A formula of x, y, z, u, v at node s of a part. pull: its value, and adds seed times its gradient to the numbers and to
+ * the adjoint of the node. */
 double ves_shell_formula(ves_plan *plan, const plan_shell *shell, int part, int s,
                          const ves_formula *formula);
+double ves_shell_formula_pull(ves_plan *plan, const plan_shell *shell, int part, int s,
+                              const ves_formula *formula, double seed);
+
+/* The way back: from adjoints of what fill fills for one case, and of all springs, to the numbers, the nodes and the
+ * thicknesses. */
+typedef struct plan_shell_pull {
+    double **thickness;                     /* [parts][s] */
+    ves_shell_load_gradient *load;          /* [parts] */
+    double (*force)[3];                     /* [points] */
+    double (*spring)[3], (*node_spring)[3]; /* [springs], [nodes] */
+} plan_shell_pull;
+void ves_shell_loads_pull_back(ves_plan *plan, const plan_shell *shell, int which,
+                               const plan_shell_pull *from);
+void ves_shell_springs_pull_back(ves_plan *plan, const plan_shell *shell, const plan_shell_pull *from);
+
+/* shell_gradient.c: in the sweep that measures have added to the readings of */
+ves_status ves_shell_slopes_make(ves_plan *plan, plan_shell *shell);
 
 #endif

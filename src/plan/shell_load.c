@@ -67,13 +67,17 @@ ves_status ves_shell_loads_make(ves_plan *plan, plan_shell *shell)
     return shell->point && shell->spring ? VES_OK : VES_MEMORY;
 }
 
-double ves_shell_formula(ves_plan *plan, const plan_shell *shell, int part, int s, const ves_formula *formula)
+static void arguments(const plan_site *site, int s, double at[VES_SHELL_ARGUMENTS])
 {
-    const plan_shell_part *p = &shell->part[part];
-    const ves_samples *m = &plan->level[shell->level].site[p->site].samples;
-    double at[VES_SHELL_ARGUMENTS];
+    const ves_samples *m = &site->samples;
     for (int c = 0; c < 3; c++) at[VES_SHELL_X + c] = m->X[c][s];
     ves_domain_at(m->u_range, m->v_range, m->u[s % m->nu], m->v[s / m->nu], &at[VES_SHELL_U]);
+}
+
+double ves_shell_formula(ves_plan *plan, const plan_shell *shell, int part, int s, const ves_formula *formula)
+{
+    double at[VES_SHELL_ARGUMENTS];
+    arguments(&plan->level[shell->level].site[shell->part[part].site], s, at);
     return ves_formula_eval(formula, plan->block, at, plan->formula_room);
 }
 
@@ -170,4 +174,91 @@ void ves_shell_loads_fill(ves_plan *plan, plan_shell *shell)
             shell->part[p].thickness[s] = ves_shell_formula(plan, shell, p, s, shell->def->part[p].thickness);
     for (int k = 0; k < shell->def->cases; k++) case_fill(plan, shell, k, &points);
     springs_fill(plan, shell);
+}
+
+/* --- the way back --- */
+
+double ves_shell_formula_pull(ves_plan *plan, const plan_shell *shell, int part, int s,
+                              const ves_formula *formula, double seed)
+{
+    plan_site *site = &plan->level[shell->level].site[shell->part[part].site];
+    double at[VES_SHELL_ARGUMENTS], back[VES_SHELL_ARGUMENTS] = {0};
+    arguments(site, s, at);
+    double value =
+        ves_formula_gradient(formula, plan->block, at, seed, plan->block_adjoint, back, plan->formula_room);
+    for (int c = 0; c < 3; c++)
+        if (site->adjoint.X[c]) site->adjoint.X[c][s] += back[VES_SHELL_X + c];
+    return value;
+}
+
+static void surface_pull(ves_plan *plan, const plan_shell *shell, const ves_load_def *load, int part,
+                         const plan_shell_pull *from)
+{
+    bool pressure = load->kind == VES_LOAD_PRESSURE, weight = load->kind == VES_LOAD_GRAVITY;
+    const int at = shell->def->density;
+    double density = weight ? plan->block[at] : 1;
+    for (int s = 0; s < shell->part[part].count; s++)
+        for (int c = 0; c < (pressure ? 1 : 3); c++) {
+            double on = (pressure ? from->load[part].pressure : from->load[part].area[c])[s],
+                   thickness = weight ? shell->part[part].thickness[s] : 1;
+            if (on == 0) continue;
+            double f =
+                ves_shell_formula_pull(plan, shell, part, s, load->formula[c], on * density * thickness);
+            if (!weight) continue;
+            plan->block_adjoint[at] += on * thickness * f;
+            from->thickness[part][s] += on * density * f;
+        }
+}
+
+/* Of a force that is spread, what is of its length too. */
+static void edge_pull(ves_plan *plan, const plan_shell *shell, const ves_load_def *load,
+                      const ves_shell_edge *on, const plan_shell_pull *from)
+{
+    const ves_shell_sheet *sheet = &shell->sheet[on->part];
+    const bool spread = load->kind == VES_LOAD_FORCE;
+    plan_site *site = &plan->level[shell->level].site[shell->part[on->part].site];
+    double length = spread ? ves_shell_length(shell->shell, &shell->input, on->part, on->edge) : 1,
+           share = spread ? 1 / (shell->sector.copies * length) : 1, by_share = 0;
+    for (int k = 0; k < ves_shell_edge_count(sheet, on->edge); k++)
+        for (int c = 0; c < 3; c++) {
+            double seed = from->load[on->part].line[on->edge][c][k];
+            by_share +=
+                seed * ves_shell_formula_pull(plan, shell, on->part, ves_shell_edge_node(sheet, on->edge, k),
+                                              load->formula[c], seed * share);
+        }
+    if (spread)
+        ves_shell_length_pull(shell->shell, on->part, on->edge, -by_share * share / length, site->adjoint.X);
+}
+
+void ves_shell_loads_pull_back(ves_plan *plan, const plan_shell *shell, int which,
+                               const plan_shell_pull *from)
+{
+    const ves_case_def *def = &shell->def->load_case[which];
+    int point = 0;
+    while (point < shell->input.points && shell->point[point].which < which) point++;
+    for (int k = 0; k < def->loads; k++) {
+        const ves_load_def *load = &def->load[k];
+        const ves_shell_edge *on = pulled(load);
+        for (int i = 0; i < load->parts; i++) surface_pull(plan, shell, load, load->part[i], from);
+        if (on) edge_pull(plan, shell, load, on, from);
+        if (on || load->kind != VES_LOAD_FORCE) continue;
+        int s = ves_shell_place(plan, shell, &load->at);
+        for (int c = 0; c < 3; c++)
+            ves_shell_formula_pull(plan, shell, load->at.part, s, load->formula[c], from->force[point][c]);
+        point++;
+    }
+}
+
+void ves_shell_springs_pull_back(ves_plan *plan, const plan_shell *shell, const plan_shell_pull *from)
+{
+    const double(*spring)[3] = (const double(*)[3])from->spring;
+    for (int k = 0; k < shell->def->supports; k++) {
+        const ves_support_def *s = &shell->def->support[k];
+        if (s->kind != VES_SUPPORT_SPRING) continue;
+        const double *on =
+            s->at.kind == VES_AT_PLACE
+                ? from->node_spring[shell->part[s->at.part].weld[ves_shell_place(plan, shell, &s->at)]]
+                : *spring++;
+        for (int c = 0; c < 3; c++) plan->block_adjoint[s->spring + c] += on[c];
+    }
 }

@@ -135,13 +135,15 @@ static ves_status measures_look(const ves_plan *plan, ves_diag *diag)
         bool elsewhere = false;
         if (!plan->runs[PROGRAM_JUDGE][m]) continue;
         for (int k = 0; k < in->input.samples; k++) elsewhere = elsewhere || in->site[k] >= p->patches;
+        elsewhere = elsewhere || (p->measure[m].measure->shell && p->measure[m].measure->cost > 0);
         if (!p->measure[m].measure->gradient || elsewhere)
             return ves_diag_add(
                 diag, VES_ERROR, VES_ABSENT, p->measure[m].mark,
                 "%s: no stability with the measure \"%s\" (%s), which %s", p->name, p->measure[m].name,
                 p->measure[m].measure->name,
-                elsewhere ? "reads more than surfaces: curves, places or caps, which are not displaced"
-                          : "has no gradient");
+                elsewhere
+                    ? "reads more than surfaces: curves, places, caps or a shell, which are not displaced"
+                    : "has no gradient");
     }
     return VES_OK;
 }

@@ -143,9 +143,13 @@ typedef struct ves_shell_stresses {
                                                          z = 0 and 0 at the surfaces */
 } ves_shell_stresses;
 const ves_shell_stresses *ves_shell_stress(ves_shell *shell, int which);
+int ves_shell_places(const ves_shell *shell); /* how many they are */
 
 /* Of one such tensor, s33 = 0: half the largest difference of principal stresses; von Mises. */
 double ves_stress_shear(const double stress[VES_STRESSES]);
 double ves_stress_mises(const double stress[VES_STRESSES]);
+/* By the stresses; where two principal stresses are the same, of one choice of their directions. */
+void ves_stress_shear_slope(const double stress[VES_STRESSES], double slope[VES_STRESSES]);
+void ves_stress_mises_slope(const double stress[VES_STRESSES], double slope[VES_STRESSES]);
 
 #endif

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/eigen.h"
 #include "base/vector.h"
 
 ves_status ves_shell_stresses_make(ves_shell *shell, ves_arena *arena)
@@ -87,6 +88,11 @@ const ves_shell_stresses *ves_shell_stress(ves_shell *shell, int which)
     return &shell->stresses;
 }
 
+int ves_shell_places(const ves_shell *shell)
+{
+    return shell->stresses.points;
+}
+
 /* Principal stresses of a tensor with s33 = 0: roots of the characteristic cubic, by the trigonometric form. */
 static void principal(const double s[VES_STRESSES], double p[3])
 {
@@ -112,4 +118,44 @@ double ves_stress_shear(const double s[VES_STRESSES])
 double ves_stress_mises(const double s[VES_STRESSES])
 {
     return sqrt(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3 * (s[2] * s[2] + s[3] * s[3] + s[4] * s[4]));
+}
+
+/* Of the difference of the largest and the least principal stress, d p = n' ds n with its direction n. */
+static void spread_slope(const double s[VES_STRESSES], double slope[VES_STRESSES])
+{
+    double a[9] = {s[0], s[2], s[3], s[2], s[1], s[4], s[3], s[4], 0}, p[3], n[9];
+    int top = 0, least = 0;
+    ves_eigen_symmetric(3, a, p, n);
+    for (int k = 1; k < 3; k++) {
+        if (p[k] > p[top]) top = k;
+        if (p[k] < p[least]) least = k;
+    }
+    static const int PAIR[VES_STRESSES][2] = {{0, 0}, {1, 1}, {0, 1}, {0, 2}, {1, 2}};
+    for (int k = 0; k < VES_STRESSES; k++) {
+        int i = 3 * PAIR[k][0], j = 3 * PAIR[k][1];
+        slope[k] = (n[i + top] * n[j + top] - n[i + least] * n[j + least]) * (i == j ? 1 : 2);
+    }
+}
+
+void ves_stress_shear_slope(const double s[VES_STRESSES], double slope[VES_STRESSES])
+{
+    memset(slope, 0, VES_STRESSES * sizeof *slope);
+    if (s[3] != 0 || s[4] != 0) {
+        spread_slope(s, slope);
+        for (int k = 0; k < VES_STRESSES; k++) slope[k] /= 2;
+        return;
+    }
+    double centre = (s[0] + s[1]) / 2, half = (s[0] - s[1]) / 2, radius = hypot(half, s[2]);
+    bool inside = radius >= (fabs(centre) + radius) / 2; /* zero lies between the principal stresses */
+    double by_radius = inside ? 1 : 0.5, by_centre = inside ? 0 : centre < 0 ? -0.5 : 0.5;
+    double along = radius > 0 ? by_radius * half / radius : 0;
+    slope[0] = (by_centre + along) / 2, slope[1] = (by_centre - along) / 2;
+    slope[2] = radius > 0 ? by_radius * s[2] / radius : 0;
+}
+
+void ves_stress_mises_slope(const double s[VES_STRESSES], double slope[VES_STRESSES])
+{
+    double mises = ves_stress_mises(s), by = mises > 0 ? 1 / (2 * mises) : 0;
+    slope[0] = (2 * s[0] - s[1]) * by, slope[1] = (2 * s[1] - s[0]) * by;
+    for (int k = 2; k < VES_STRESSES; k++) slope[k] = 6 * s[k] * by;
 }

@@ -17,6 +17,17 @@ typedef struct ves_shell_spot {
         .name = "case", .kind = VES_CASE, .about = "the load case; may be left out when there is one"        \
     }
 
+/* What measures read of a solved case, as its gradient asks for it (shell/adjoint.h): they add d J by it. All zeros but
+ * where they say that they did. */
+typedef struct ves_shell_reading {
+    double *(*U)[3];                    /* [sheets][s] */
+    double (*mean)[VES_SHELL_EDGES][3]; /* [sheets] along edges */
+    double (*stress)[VES_SHELL_LEVELS][VES_STRESSES];
+    double *X[3], *thickness, *area; /* [points] of the stresses */
+    double factor, work;
+    bool moved, meant, stressed; /* U, mean, and what is of the stresses */
+} ves_shell_reading;
+
 typedef struct ves_shell_view {
     ves_shell *shell;
     const ves_shell_model *model;
@@ -24,6 +35,7 @@ typedef struct ves_shell_view {
     double copies;              /* how many of the sector make the whole: of energies */
     double share[3][3];         /* a force of the sector adds copies * share * force to that of the whole */
     const ves_shell_spot *spot; /* [places that the file names] */
+    ves_shell_reading *reading; /* [cases]; NULL: there are no gradients */
     int density;                /* number block index, or -1 */
     const struct ves_formula *const *thickness; /* [patches] NULL: no part of the shell */
     /* [sheets] what formulas of u and v mean (ves_samples) */

@@ -13,6 +13,13 @@ static ves_status eval(const ves_measure_input *input, double *value)
     return VES_OK;
 }
 
+static void gradient(const ves_measure_input *input, double seed, const ves_adjoint *const *adjoint,
+                     double *number_adjoint)
+{
+    (void)adjoint, (void)number_adjoint;
+    input->shell->reading[input->args->arg[CASE].value].work += seed * input->shell->copies;
+}
+
 const ves_measure ves_measure_compliance = {
     .name = "compliance",
     .about = "work of the loads, F . u: twice the strain energy of the shell",
@@ -21,4 +28,5 @@ const ves_measure ves_measure_compliance = {
     .cost = 1,
     .shell = true,
     .keys = KEYS,
-    .eval = eval};
+    .eval = eval,
+    .gradient = gradient};

@@ -7,6 +7,14 @@ static ves_status eval(const ves_measure_input *input, double *value)
     return ves_stress_largest(input, ves_stress_shear, value);
 }
 
+static void gradient(const ves_measure_input *input, double seed, const ves_adjoint *const *adjoint,
+                     double *number_adjoint)
+{
+    static const ves_stress_kind kind = {ves_stress_shear, ves_stress_shear_slope};
+    (void)adjoint;
+    ves_stress_gradient(input, &kind, seed, number_adjoint);
+}
+
 const ves_measure ves_measure_max_shear = {.name = "max_shear",
                                            .about = "largest shear stress of the shell (Tresca)",
                                            .unit = "Pa",
@@ -16,4 +24,7 @@ const ves_measure ves_measure_max_shear = {.name = "max_shear",
                                            .shell = true,
                                            .keys = ves_stress_keys,
                                            .room = ves_stress_room,
-                                           .eval = eval};
+                                           .prepare = ves_stress_prepare,
+                                           .release = ves_stress_release,
+                                           .eval = eval,
+                                           .gradient = gradient};
