@@ -30,7 +30,7 @@ foreach(file ${tests})
   set_tests_properties(${name} PROPERTIES TIMEOUT 1200) # sanitized, on a machine with other work: minutes
 endforeach()
 # These count the calls of the allocator and make them fail (tests/memory.h).
-foreach(name allocation problem_text search_run)
+foreach(name allocation problem_text search_run shell_memory)
   target_link_options(test_${name} PRIVATE -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free)
 endforeach()
 target_link_options(test_allocation PRIVATE -Wl,--wrap=ves_arena_take,--wrap=ves_arena_doubles,--wrap=ves_arena_text)
