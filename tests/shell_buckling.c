@@ -227,6 +227,37 @@ Test(buckling, pressed)
     }
 }
 
+/* The least over all classes is that of the class that has it, each solved by itself; the rest are only asked whether they are above.
+ * Both by the same Lanczos: to rounding. */
+Test(buckling, classes)
+{
+    for (int k = SECTOR; k <= QUARTER; k += QUARTER - SECTOR) {
+        static tube_more more;
+        const tube t = {.order = 6,
+                        .rows = 3,
+                        .columns = 8,
+                        .copies = 8,
+                        .length = 1.5,
+                        .thickness = 0.02,
+                        .radius = 1,
+                        .axial = 1,
+                        .cut = (cut)k};
+        shell_case c;
+        tube_make(&t, &c, &more);
+        ves_shell_buckled all = buckle(&c), least = {.factor = HUGE_VAL}, one;
+        int classes = 0;
+        for (int symmetry = 0; symmetry <= c.model.classes; symmetry++)
+            for (int wave = 0; wave < ves_shell_waves(c.shell); wave++, classes++) {
+                cr_assert(ves_shell_buckling_class(c.shell, 0, symmetry, wave, &one) == VES_OK);
+                if (one.factor < least.factor) least = one;
+            }
+        cr_assert(classes == all.classes, "cut %d: %d classes", k, all.classes);
+        cr_assert(fabs(all.factor / least.factor - 1) < 1e-8, "cut %d: %.12g, %.12g", k, all.factor,
+                  least.factor);
+        case_end(&c);
+    }
+}
+
 /* Long: like a ring of the stiffness of a plate, p = E t^3 / (4 (1 - nu^2) R^3) with two waves; ends add some per mille. */
 Test(buckling, long_tube)
 {

@@ -166,27 +166,32 @@ static void parts_join(const shell_layout *layout, const shell_parts *of, double
     for (size_t k = 0; !turned && k < count; k++) to[k] = of->x[0][k] + (of->x[1] ? co * of->x[1][k] : 0);
 }
 
-static ves_status class_factor(ves_shell *shell, int index, int wave)
+static void class_take(ves_shell *shell, int index, int wave)
 {
     shell_buckling *b = shell->buckling;
     const shell_layout *layout = &shell->layout[index];
-    const spectrum *of = &b->of[index];
     bool turned = wave > 0;
     for (int k = 0; k < 2; k++) {
         b->matrix[k] = *layout->matrix;
         b->matrix[k].x = b->values[k];
         b->matrix[k].xtype = turned ? CHOLMOD_COMPLEX : CHOLMOD_REAL;
     }
-    parts_join(layout, &of->geometric, wave * b->angle, turned, b->values[1]);
-    if (index == 0 && !turned) {
-        b->factor = layout->factor;
-        return VES_OK;
-    }
-    parts_join(layout, &of->stiff, wave * b->angle, turned, b->values[0]);
-    b->factor = turned ? of->turned : of->real;
+    parts_join(layout, &b->of[index].geometric, wave * b->angle, turned, b->values[1]);
+}
+
+/* K + load K_sigma of a class other than that of the loads, in b->values[0]; *positive: and its factor in b->factor. */
+static ves_status class_factor(ves_shell *shell, int index, int wave, double load, bool *positive)
+{
+    shell_buckling *b = shell->buckling;
+    const shell_layout *layout = &shell->layout[index];
+    size_t count = layout->matrix->nzmax * (wave > 0 ? 2 : 1);
+    parts_join(layout, &b->of[index].stiff, wave * b->angle, wave > 0, b->values[0]);
+    for (size_t k = 0; load > 0 && k < count; k++) b->values[0][k] += load * b->values[1][k];
+    b->factor = wave > 0 ? b->of[index].turned : b->of[index].real;
     if (!cholmod_factorize(&b->matrix[0], b->factor, &shell->common) && shell->common.status < 0)
         return VES_MEMORY;
-    return shell->common.status == CHOLMOD_NOT_POSDEF ? VES_LOOSE : VES_OK;
+    *positive = shell->common.status != CHOLMOD_NOT_POSDEF;
+    return VES_OK;
 }
 
 /* --- the operator --- */
@@ -247,6 +252,23 @@ static void mode_keep(ves_shell *shell, int index, int wave, bool fine, double f
     for (int k = 0; most > 0 && k < size * layout->freedoms; k++) b->mode[k] /= sqrt(most);
 }
 
+static bool is_of_loads(int index, int wave)
+{
+    return index == 0 && wave == 0;
+}
+
+/* Is the least factor of a class above a load? Then, and only then, K + load K_sigma is positive [Sylvester's law of inertia],
+ * which takes one factor where the least factor itself takes as many solutions as Lanczos has steps. */
+static ves_status class_is_above(ves_shell *shell, int which, int index, int wave, double load, bool *above)
+{
+    *above = false;
+    if (!isfinite(load) || is_of_loads(index, wave)) return VES_OK;
+    VES_TRY(ves_shell_held(shell, &shell->layout[index], wave * shell->buckling->angle));
+    VES_TRY(prepare(shell, index, which));
+    class_take(shell, index, wave);
+    return class_factor(shell, index, wave, load, above);
+}
+
 /* The least factor of a class; the mode is left in `found`. fine: a gradient errs as much as the mode, a factor as much as
  * its square. */
 static ves_status class_solve(ves_shell *shell, int which, int index, int wave, bool fine,
@@ -255,9 +277,13 @@ static ves_status class_solve(ves_shell *shell, int which, int index, int wave, 
     shell_buckling *b = shell->buckling;
     static const double VALUE = 1e-4, MODE = 1e-7;
     ves_lanczos_found top;
-    if (index || wave) VES_TRY(ves_shell_held(shell, &shell->layout[index], wave * b->angle));
+    bool positive = true;
+    if (!is_of_loads(index, wave)) VES_TRY(ves_shell_held(shell, &shell->layout[index], wave * b->angle));
     VES_TRY(prepare(shell, index, which));
-    VES_TRY(class_factor(shell, index, wave));
+    class_take(shell, index, wave);
+    b->factor = shell->layout[index].factor;
+    if (!is_of_loads(index, wave)) VES_TRY(class_factor(shell, index, wave, 0, &positive));
+    if (!positive) return VES_LOOSE;
     const ves_lanczos_pencil pencil = {.n = shell->layout[index].freedoms * (wave > 0 ? 2 : 1),
                                        .close = fine ? MODE : VALUE,
                                        .of = shell,
@@ -304,31 +330,55 @@ static double waves_enough(const ves_shell *shell)
     return pow(12 * (1 - nu * nu), 0.25) * sqrt(farthest / thinnest);
 }
 
+/* One class after others: *found, if its least factor is less. *above: it is more than `load`. */
+static ves_status class_next(ves_shell *shell, int which, int index, int wave, double load, bool *above,
+                             ves_shell_buckled *found)
+{
+    shell_buckling *b = shell->buckling;
+    const int classes = found->classes + 1, solves = found->solves + 1;
+    ves_shell_buckled at;
+    VES_TRY(class_is_above(shell, which, index, wave, load, above));
+    found->classes = classes, found->solves = solves;
+    if (*above) return VES_OK;
+    VES_TRY(class_solve(shell, which, index, wave, false, &at));
+    *above = at.factor > load;
+    if (at.factor < found->factor) {
+        *found = at;
+        mode_keep(shell, index, wave, false, at.factor);
+        b->least[which].layout = index, b->least[which].wave = wave;
+    }
+    found->classes = classes, found->solves = solves + at.solves;
+    return VES_OK;
+}
+
+/* The k-th wave that is looked at: a ring's from 0 on, until they rise; of a sector's the first and the last before those between,
+ * as most often one of the two has the least factor, and then one factorization tells of each other that it has not. */
+static int wave_of(int k, int waves, bool ring)
+{
+    return ring || k == 0 ? k : k == 1 ? waves - 1 : k - 1;
+}
+
 ves_status ves_shell_buckling(ves_shell *shell, int which, ves_shell_buckled *found)
 {
     enum { RISING = 5 };
+    static const double SAME = 1 - 1e-6,
+                        MORE = 1.5; /* twins of a mode in other classes are not sought; see the header */
     shell_buckling *b = shell->buckling;
     bool ring = rings(shell);
     double enough = ring ? waves_enough(shell) : HUGE_VAL;
-    int classes = 0, solves = 0;
     *found = (ves_shell_buckled){.factor = HUGE_VAL};
     b->mode_layout = b->least[which].layout = -1;
     for (int index = 0; index < shell->layouts; index++) {
-        int above = 0;
-        for (int wave = 0; wave < b->waves; wave++) {
-            ves_shell_buckled at;
-            VES_TRY(class_solve(shell, which, index, wave, false, &at));
-            classes++, solves += at.solves;
-            above = at.factor > 1.5 * found->factor ? above + 1 : 0;
-            if (at.factor < found->factor) {
-                *found = at;
-                mode_keep(shell, index, wave, false, at.factor);
-                b->least[which].layout = index, b->least[which].wave = wave;
-            }
-            if (wave >= enough && (above >= RISING || !isfinite(found->factor))) break;
+        int rising = 0;
+        for (int k = 0; k < b->waves; k++) {
+            int wave = wave_of(k, b->waves, ring);
+            bool above;
+            double load = (ring ? MORE : SAME) * found->factor;
+            VES_TRY(class_next(shell, which, index, wave, load, &above, found));
+            rising = above ? rising + 1 : 0;
+            if (wave >= enough && (rising >= RISING || !isfinite(found->factor))) break;
         }
     }
-    found->classes = classes, found->solves = solves;
     return VES_OK;
 }
 

@@ -65,6 +65,7 @@ static void common_start(cholmod_common *c)
     c->print = 0;
     c->try_catch = true;
     c->quick_return_if_not_posdef = true;
+    c->final_ll = true; /* L D L' of a small matrix would not tell that it is not positive */
 }
 
 static ves_status build(ves_shell *shell, ves_arena *arena)
