@@ -1,5 +1,5 @@
-/* Memory of problems with shells: nothing of ours is allocated for a candidate, CHOLMOD takes the same for each, and every
- * allocation that fails is a clean VES_MEMORY. */
+/* Memory of problems with shells: nothing of ours is allocated for a candidate and its gradient, CHOLMOD takes the same for
+ * each, and every allocation that fails is a clean VES_MEMORY. */
 #include <criterion/criterion.h>
 
 #include <limits.h>
@@ -56,9 +56,9 @@ static void end(work *w)
 
 static ves_status evaluate(const work *w, int k, int level)
 {
-    double x[2] = {1 + STEP * k, 0.02 + STEP * k};
-    ves_verdict verdict = {.value = NAN};
-    const ves_ask ask = {.x = x, .level = level, .cutoff = HUGE_VAL, .want = VES_WANT_VALUE};
+    double x[2] = {1 + STEP * k, 0.02 + STEP * k}, gradient[2];
+    ves_verdict verdict = {.value = NAN, .gradient = gradient};
+    const ves_ask ask = {.x = x, .level = level, .cutoff = HUGE_VAL, .want = VES_WANT_GRADIENT};
     ves_status status = ves_plan_evaluate(w->plan, &ask, &verdict);
     return status == VES_OK ? verdict.status : status;
 }
