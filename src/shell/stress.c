@@ -52,18 +52,27 @@ static void place_fill(const ves_shell *shell, const shell_element *e, const ves
 /* It is parabolic. */
 const double ves_shell_across[VES_SHELL_LEVELS] = {0, 1.5, 0};
 
+/* At a pole an element has a side of no length, but for rounding: strains there are none. The next points are a
+ * hundredth of the element away, strips of rings a thousandth of their distance from the axis wide. */
+static bool is_flat(const ves_shell_frame *frame, double area)
+{
+    static const double NONE = 1e-9;
+    return !(area > NONE * fmax(ves_dot(frame->Xr, frame->Xr), ves_dot(frame->Xs, frame->Xs)));
+}
+
 static void stress_fill(const ves_shell *shell, const ves_shell_body *body, const ves_shell_frame *frame,
                         int q, int at)
 {
-    double normal[3];
+    double normal[3], area;
     ves_cross(frame->Xr, frame->Xs, normal);
-    shell->stresses.area[at] = body->kind->lattice.weight[q] * sqrt(ves_dot(normal, normal));
+    area = sqrt(ves_dot(normal, normal));
+    bool flat = is_flat(frame, area);
+    shell->stresses.area[at] = body->kind->lattice.weight[q] * area;
     for (int level = 0; level < VES_SHELL_LEVELS; level++) {
         double *stress = shell->stresses.stress[at][level];
-        if (!ves_shell_stress_at(frame, &shell->input->material, shell->strain + q * VES_GENERAL, level - 1,
-                                 stress))
-            for (int k = 0; k < VES_STRESSES; k++)
-                stress[k] = 0; /* at a pole, where an element has a side of no length */
+        if (flat || !ves_shell_stress_at(frame, &shell->input->material, shell->strain + q * VES_GENERAL,
+                                         level - 1, stress))
+            for (int k = 0; k < VES_STRESSES; k++) stress[k] = 0;
         stress[3] *= ves_shell_across[level], stress[4] *= ves_shell_across[level];
     }
 }
