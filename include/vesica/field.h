@@ -34,7 +34,8 @@ typedef enum ves_kind {
     VES_POINTWISE,  /* internal: one formula of x, y, z, H, K, k1, k2, u, v at a point of the surface */
     VES_CASE, /* a load case of the shell; may be left out when there is but one, and is answered then too */
     VES_SHELL_AT, /* a curve that parts of the shell end on, an edge of a part (wall.u0), or a place on one */
-    VES_SHELLWISE /* internal: one formula of x, y, z, u, v, thickness at a point of the shell */
+    VES_SHELLWISE, /* internal: one formula of x, y, z, u, v, thickness at a point of the shell */
+    VES_SHELL_HELD /* as SHELL_AT, where a support of the shell is */
 } ves_kind;
 
 /* As the least value of a key: greater than 0. The smallest normal number, so that ranges stay closed. */
@@ -60,7 +61,7 @@ typedef struct ves_arg {
     bool given; /* false: the fallback stands */
     ves_mark mark;
     int first, count; /* number kinds; formula kinds and references use count alone */
-    int value;        /* COUNT, FLAG, CHOICE; CASE, SHELL_AT: which one, -1: not given */
+    int value;        /* COUNT, FLAG, CHOICE; CASE, SHELL_AT, SHELL_HELD: which one, -1: not given */
     const char *text; /* TEXT */
     const struct ves_formula *const *formula; /* FORMULAS (three), POINTWISE (one) */
     const int *ref;                           /* CURVE, TERMS: curves; PATCHES: patches; PLACE: see place */

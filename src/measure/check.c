@@ -65,7 +65,7 @@ static const char *number_fault(const ves_key *key)
 static const char *kind_fault(const ves_measure *m, const ves_key *key)
 {
     bool reference = key->kind == VES_CURVE || key->kind == VES_PLACE;
-    if (key->kind < VES_NUMBER || key->kind > VES_SHELLWISE) return "is of no kind";
+    if (key->kind < VES_NUMBER || key->kind > VES_SHELL_HELD) return "is of no kind";
     if (key->kind == VES_FORMULAS || key->kind == VES_POINTWISE || key->kind == VES_SHELLWISE)
         return "is of a kind that only built-in measures can have";
     if (!key->about) return "says nothing about itself";

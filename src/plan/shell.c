@@ -141,7 +141,7 @@ static void view_fill(ves_plan *plan, plan_shell *shell)
     ves_shell_view *v = &shell->view;
     v->shell = shell->shell, v->model = &shell->model, v->input = &shell->input;
     v->copies = shell->sector.copies;
-    v->spot = shell->spot;
+    v->spot = shell->spot, v->grip = shell->grip;
     v->u_range = (const double(*)[2])shell->u_range, v->v_range = (const double(*)[2])shell->v_range;
     memcpy(v->share, shell->sector.share, sizeof v->share);
     for (int k = 0; k < shell->def->ats; k++) {
@@ -184,6 +184,7 @@ ves_status ves_shell_finish(ves_plan *plan, int index, ves_diag *diag)
     VES_TRY(ves_shell_weld(plan, shell));
     VES_TRY(ves_shell_hold(plan, shell, diag));
     VES_TRY(ves_shell_loads_make(plan, shell));
+    VES_TRY(ves_shell_grips_make(plan, shell));
     model_fill(shell);
     shell->model.gradients = !plan->trial && ves_plan_differentiable(plan);
     VES_TRY(ves_shell_create(&shell->model, &shell->input, &plan->arena, &shell->shell));

@@ -51,6 +51,7 @@ struct plan_shell {
     ves_shell_spring *spring;
     ves_shell_point *point;
     ves_shell_spot *spot;
+    ves_shell_grip *grip;
     const double *(*X)[3], *(*normal)[3], **thickness;
     double *side, (*u_range)[2], (*v_range)[2];
     const ves_formula **formula; /* [patches] of thickness */
@@ -84,6 +85,9 @@ ves_status ves_shell_mesh(ves_plan *plan, plan_shell *shell, ves_diag *diag);
 /* shell_weld.c: which nodes are one; folds; what is held */
 ves_status ves_shell_weld(ves_plan *plan, plan_shell *shell);
 ves_status ves_shell_hold(ves_plan *plan, plan_shell *shell, ves_diag *diag);
+
+/* What supports hold at the places that measures name. */
+ves_status ves_shell_grips_make(ves_plan *plan, plan_shell *shell);
 
 /* The node at a place, or the one that stands for it. */
 void ves_shell_spot_find(const ves_plan *plan, const plan_shell *shell, const ves_shell_at *at,

@@ -360,3 +360,47 @@ ves_status ves_shell_hold(ves_plan *plan, plan_shell *shell, ves_diag *diag)
         if (!frame_make(&h[k], &shell->node[k])) return refuse(shell, diag);
     return classes_hold(plan, shell, h, diag);
 }
+
+/* --- what measures ask of it --- */
+
+static void grip_add(const ves_plan *plan, const plan_shell *shell, const ves_shell_at *at, bool *node)
+{
+    if (at->kind == VES_AT_PLACE) node[shell->part[at->part].weld[ves_shell_place(plan, shell, at)]] = true;
+    for (int k = 0; k < at->edges; k++)
+        for (int i = 0; i < ves_shell_edge_count(&shell->sheet[at->on[k].part], at->on[k].edge); i++)
+            node[shell->part[at->on[k].part]
+                     .weld[ves_shell_edge_node(&shell->sheet[at->on[k].part], at->on[k].edge, i)]] = true;
+}
+
+/* What one direction is held by, all are: supports at one place are the same along it. */
+static ves_status grip_make(ves_plan *plan, const plan_shell *shell, const ves_shell_at *at,
+                            ves_shell_grip *grip)
+{
+    const ves_shell_def *def = shell->def;
+    bool *node = ves_arena_take(&plan->arena, (size_t)shell->nodes, sizeof *node);
+    bool *spring = ves_arena_take(&plan->arena, (size_t)shell->model.springs, sizeof *spring);
+    hold h = {.moves = 0};
+    if (!node || !spring) return VES_MEMORY;
+    for (int k = 0, sprung = 0; k < def->supports; k++) {
+        const ves_support_def *s = &def->support[k];
+        const bool springs = s->kind == VES_SUPPORT_SPRING, here = ves_shell_at_meets(at, &s->at);
+        if (here) support_add(&h, s), grip_add(plan, shell, at, node);
+        if (springs && s->at.kind == VES_AT_PLACE)
+            grip->sprung = grip->sprung || here;
+        else if (springs)
+            spring[sprung++] = here;
+    }
+    for (int k = 0; k < h.moves; k++)
+        for (int i = 0; i < 9; i++) grip->held[i / 3][i % 3] += h.move[k][i / 3] * h.move[k][i % 3];
+    grip->node = node, grip->spring = spring;
+    return VES_OK;
+}
+
+ves_status ves_shell_grips_make(ves_plan *plan, plan_shell *shell)
+{
+    shell->grip = ves_arena_take(&plan->arena, (size_t)shell->def->ats, sizeof *shell->grip);
+    if (!shell->grip) return VES_MEMORY;
+    for (int k = 0; k < shell->def->ats; k++)
+        VES_TRY(grip_make(plan, shell, &shell->def->at[k], &shell->grip[k]));
+    return VES_OK;
+}

@@ -326,6 +326,9 @@ static void given(ves_reader *reader, const ves_field *field, ves_arg *arg)
     case VES_SHELL_AT:
         arg->value = ves_reader_shell_place(reader, node);
         break;
+    case VES_SHELL_HELD:
+        arg->value = ves_reader_shell_held(reader, node);
+        break;
     }
 }
 
@@ -334,7 +337,7 @@ static void absent(ves_reader *reader, const ves_key *key, ves_arg *arg)
 {
     bool three = key->kind == VES_VECTOR || key->kind == VES_SCALES;
     bool whole = key->kind == VES_COUNT || key->kind == VES_FLAG || key->kind == VES_CHOICE;
-    bool shell = key->kind == VES_CASE || key->kind == VES_SHELL_AT;
+    bool shell = ves_reader_of_shell(key);
     arg->value = shell ? -1 : whole ? (int)key->fallback : 0; /* of others a plugin may say any number */
     if (key->kind != VES_NUMBER && !three) return;
     const ves_formula *formula = ves_formula_constant(key->fallback, reader->arena);

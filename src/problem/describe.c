@@ -158,7 +158,8 @@ void ves_describe_kind(ves_writer *writer, const ves_key *key)
                                         "formula of x, y, z, H, K, k1, k2, u, v",
                                         "load case",
                                         "curve, PATCH.u0, .u1, .v0 or .v1, or place",
-                                        "formula of x, y, z, u, v, thickness"};
+                                        "formula of x, y, z, u, v, thickness",
+                                        "curve, PATCH.u0, .u1, .v0 or .v1, or place that a support names"};
     static const char *const compound[] = {"mapping",
                                            "names",
                                            "list",
@@ -244,14 +245,26 @@ void ves_describe_limits(ves_writer *writer, const ves_key *key)
 
 static void sample(ves_writer *writer, const ves_key *key)
 {
-    static const char *const text[] = {
-        "",           "",       "[0, 0, 1]",
-        "2",          "[2, 1]", "[[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]",
-        "[[1, p1]]",  "",       "true",
-        "",           "text",   "p1",
-        "p1",         "[wall]", "[\"cos(v)\", \"sin(v)\", \"0\"]",
-        "\"H^2\"",    "stack",  "p1",
-        "\"u > 0.1\""};
+    static const char *const text[] = {"",
+                                       "",
+                                       "[0, 0, 1]",
+                                       "2",
+                                       "[2, 1]",
+                                       "[[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]",
+                                       "[[1, p1]]",
+                                       "",
+                                       "true",
+                                       "",
+                                       "text",
+                                       "p1",
+                                       "p1",
+                                       "[wall]",
+                                       "[\"cos(v)\", \"sin(v)\", \"0\"]",
+                                       "\"H^2\"",
+                                       "stack",
+                                       "p1",
+                                       "\"u > 0.1\"",
+                                       "p1"};
     if (number_kind(key))
         ves_write(writer, "%g", key->min > 1 ? ceil(key->min / 2) * 2 : 1.0);
     else if (key->kind == VES_CHOICE)

@@ -56,6 +56,7 @@ static void leaf(ves_writer *w, const ves_key *key)
         "\"type\":\"string\"",
         "\"type\":\"string\"",
         NUMBER,
+        "\"type\":\"string\"",
     };
     bool number = key->kind == VES_NUMBER || key->kind == VES_COUNT;
     if (key->kind == VES_CHOICE)

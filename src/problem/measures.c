@@ -68,7 +68,7 @@ static void check_shell(ves_reader *reader, const ves_node *node, const ves_meas
 {
     bool needed = measure->shell;
     for (const ves_key *key = measure->keys; key && key->name; key++)
-        needed = needed || key->kind == VES_CASE || key->kind == VES_SHELL_AT;
+        needed = needed || ves_reader_of_shell(key);
     if (!needed || reader->shell) return;
     ves_reader_error(
         reader, VES_NAME, node,

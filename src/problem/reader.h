@@ -292,6 +292,8 @@ bool ves_reader_shell_at(ves_reader *reader, const ves_node *node, ves_shell_at 
 /* For measures: the index of such a place, of a load case, and of the only load case there is, for a key that
  * was left out; -1 after an error. */
 int ves_reader_shell_place(ves_reader *reader, const ves_node *node);
+int ves_reader_shell_held(ves_reader *reader, const ves_node *node); /* where a support is */
+bool ves_reader_of_shell(const ves_key *key);                        /* of a kind that only shells have */
 int ves_reader_case(ves_reader *reader, const ves_node *node);
 int ves_reader_only_case(ves_reader *reader, const ves_node *node, const ves_key *key);
 void ves_reader_shell_finish(ves_reader *reader); /* hands the places over */

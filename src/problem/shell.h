@@ -38,6 +38,9 @@ typedef struct ves_shell_at {
     int part; /* AT_PLACE: the part that it lies on; else that of on[0] */
 } ves_shell_at;
 
+/* Do they have an edge in common, or are they one place? */
+bool ves_shell_at_meets(const ves_shell_at *a, const ves_shell_at *b);
+
 typedef struct ves_shell_part_def {
     int patch;
     ves_mark mark;

@@ -145,6 +145,32 @@ int ves_reader_shell_place(ves_reader *reader, const ves_node *node)
     return shell->ats++;
 }
 
+bool ves_reader_of_shell(const ves_key *key)
+{
+    return key->kind == VES_CASE || key->kind == VES_SHELL_AT || key->kind == VES_SHELL_HELD;
+}
+
+bool ves_shell_at_meets(const ves_shell_at *a, const ves_shell_at *b)
+{
+    if (a->kind == VES_AT_PLACE || b->kind == VES_AT_PLACE) return a->kind == b->kind && a->index == b->index;
+    for (int i = 0; i < a->edges; i++)
+        for (int j = 0; j < b->edges; j++)
+            if (a->on[i].part == b->on[j].part && a->on[i].edge == b->on[j].edge) return true;
+    return false;
+}
+
+int ves_reader_shell_held(ves_reader *reader, const ves_node *node)
+{
+    int index = ves_reader_shell_place(reader, node);
+    const ves_shell_def *shell = reader->shell;
+    if (index < 0 || !reader->shell_known) return index;
+    for (int k = 0; k < shell->supports; k++)
+        if (ves_shell_at_meets(&reader->at[index], &shell->support[k].at)) return index;
+    ves_reader_error(reader, VES_NAME, node,
+                     "no support holds the shell at \"%.80s\": name what a support names", node->text);
+    return -1;
+}
+
 int ves_reader_case(ves_reader *reader, const ves_node *node)
 {
     const ves_named *found = reader->shell ? ves_names_ask(reader, &reader->cases, node) : NULL;

@@ -135,6 +135,9 @@ typedef struct shell_line {
     double t[VES_SHELL_LINE][3], length[VES_SHELL_LINE];
 } shell_line;
 void ves_shell_line_at(const ves_shell_body *body, int edge, shell_line *line);
+/* Adds the forces of a case on the nodes of an element, those of points apart. */
+void ves_shell_load_add(ves_shell *shell, const shell_element *element, const ves_shell_body *body, int which,
+                        double (*force)[3]);
 
 /* assemble.c, load.c. springs: of the element at hand, into K. */
 ves_status ves_shell_assemble(ves_shell *shell, const shell_layout *layout);

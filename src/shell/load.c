@@ -135,6 +135,13 @@ static void line_add(ves_shell *shell, const shell_element *e, const ves_shell_b
         }
 }
 
+void ves_shell_load_add(ves_shell *shell, const shell_element *e, const ves_shell_body *body, int which,
+                        double (*force)[3])
+{
+    surface_add(shell, e, body, which, force);
+    for (int edge = 0; edge < VES_SHELL_EDGES; edge++) line_add(shell, e, body, which, edge, force);
+}
+
 static void points_add(ves_shell *shell)
 {
     const ves_shell_input *in = shell->input;
@@ -169,9 +176,7 @@ void ves_shell_loads(ves_shell *shell)
         int columns = ves_shell_columns_of(shell, &shell->layout[0], e);
         for (int which = 0; which < shell->model->cases; which++) {
             memset(shell->U, 0, sizeof *shell->U * (size_t)body.kind->nodes);
-            surface_add(shell, e, &body, which, shell->U);
-            for (int edge = 0; edge < VES_SHELL_EDGES; edge++)
-                line_add(shell, e, &body, which, edge, shell->U);
+            ves_shell_load_add(shell, e, &body, which, shell->U);
             scatter(shell, columns, (const double(*)[3])shell->U,
                     (double *)shell->force->x + (size_t)which * shell->force->d);
         }

@@ -130,6 +130,17 @@ double ves_shell_length(ves_shell *shell, const ves_shell_input *input, int shee
 /* The mean displacement along an edge. */
 void ves_shell_edge_mean(ves_shell *shell, int which, int sheet, int edge, double U[3]);
 
+/* Some of the supports: where they are and what they hold there. */
+typedef struct ves_shell_grip {
+    const bool *node;   /* [nodes] */
+    double held[3][3];  /* projector on the directions along which nodes are held there */
+    const bool *spring; /* [springs] which are among them */
+    bool sprung;        /* the springs of these nodes are */
+} ves_shell_grip;
+
+/* The force with which they hold it, N; of a sector what is along its axis or in its mirror plane. */
+void ves_shell_reaction(ves_shell *shell, int which, const ves_shell_grip *grip, double F[3]);
+
 /* Stresses at the lattice of all elements. [points], point by point of element by element. */
 enum { VES_SHELL_LEVELS = 3 }; /* z = -1, 0, +1 */
 typedef struct ves_shell_stresses {

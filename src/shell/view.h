@@ -35,6 +35,7 @@ typedef struct ves_shell_view {
     double copies;              /* how many of the sector make the whole: of energies */
     double share[3][3];         /* a force of the sector adds copies * share * force to that of the whole */
     const ves_shell_spot *spot; /* [places that the file names] */
+    const ves_shell_grip *grip; /* [the same] what supports do there */
     ves_shell_reading *reading; /* [cases]; NULL: there are no gradients */
     int density;                /* number block index, or -1 */
     const struct ves_formula *const *thickness; /* [patches] NULL: no part of the shell */
