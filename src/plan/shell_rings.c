@@ -4,9 +4,10 @@
 
 #include <math.h>
 
+#include "base/random.h"
 #include "base/vector.h"
 
-enum { ROWS = 4, SAMPLES = 256, WAVES_MOST = 48, NODES_A_WAVE = 8 };
+enum { ROWS = 4, SAMPLES = 256, WAVES_MOST = 48, NODES_A_WAVE = 8, DRAWN = 64 };
 
 /* What is left out of a mesh, of the first wave; what is no wave at all. */
 static const double SEEN = 3e-3, NONE = 1e-9;
@@ -112,7 +113,7 @@ static int waves_of_buckling(ves_plan *plan, const plan_shell *shell, int part, 
     return waves < WAVES_MOST ? (int)ceil(waves) : WAVES_MOST;
 }
 
-static void part_look(ves_plan *plan, plan_shell *shell, int part, int design, const ring_sampler *r)
+static void part_look(ves_plan *plan, plan_shell *shell, int part, bool is_start, const ring_sampler *r)
 {
     double R = 0;
     for (int row = 0; row < ROWS; row++) {
@@ -122,8 +123,26 @@ static void part_look(ves_plan *plan, plan_shell *shell, int part, int design, c
         if (waves > shell->waves) shell->waves = waves;
         shell->folds = folds_of(X, shell->folds, &R);
     }
-    int buckling = shell->buckles && design == 0 ? waves_of_buckling(plan, shell, part, R) : 0;
+    int buckling = shell->buckles && is_start ? waves_of_buckling(plan, shell, part, R) : 0;
     if (buckling > shell->waves) shell->waves = buckling;
+}
+
+/* Drawn, each variable at its least, its most, or between: what one brings out another may smooth away. */
+static void draw(ves_plan *plan, int k)
+{
+    const ves_problem *p = plan->problem;
+    ves_random random = {.seed = 3, .step = (uint64_t)k};
+    for (int i = 0; i < p->variables; i++) {
+        double at = fmin(1, fmax(0, 2 * ves_random_uniform(&random) - 0.5));
+        plan->reference[i] = p->variable[i].min + (p->variable[i].max - p->variable[i].min) * at;
+    }
+    ves_plan_bind(plan, plan->reference, p->solve ? (p->solve->lo + p->solve->hi) / 2 : 0);
+}
+
+static void look(ves_plan *plan, plan_shell *shell, bool is_start, ring_sampler *r)
+{
+    for (int k = 0; k < shell->def->parts; k++)
+        if (r[k].chart && sample(plan, &r[k])) part_look(plan, shell, k, is_start, &r[k]);
 }
 
 ves_status ves_shell_rings(ves_plan *plan, plan_shell *shell)
@@ -135,10 +154,13 @@ ves_status ves_shell_rings(ves_plan *plan, plan_shell *shell)
         int patch = shell->def->part[k].patch;
         if (ves_patch_periodic(plan->patch[patch])) VES_TRY(sampler_make(plan, patch, &r[k]));
     }
+    for (int k = 0; k < DRAWN; k++) {
+        draw(plan, k);
+        look(plan, shell, false, r);
+    }
     for (int d = SHELL_DESIGNS - 1; d >= 0; d--) {
         ves_shell_design(plan, d);
-        for (int k = 0; k < shell->def->parts; k++)
-            if (r[k].chart && sample(plan, &r[k])) part_look(plan, shell, k, d, &r[k]);
+        look(plan, shell, d == 0, r);
     }
     return VES_OK;
 }
