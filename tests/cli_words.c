@@ -215,7 +215,7 @@ Test(cli_words, decks_need_a_shell)
     expect(vesica(NULL, "export wall.yaml --to stl,inp --buckling 3"), 0, "wall.stl\nwall.inp\n", NULL,
            "both");
     char *deck = slurp("wall.inp");
-    cr_assert(strstr(deck, "*BUCKLE\n3\n") != NULL && strstr(deck, "** case a\n") != NULL);
+    cr_assert(strstr(deck, "*BUCKLE\n3, 1e-6, 20, 5000\n") != NULL && strstr(deck, "** case a\n") != NULL);
     free(deck);
     root_remove();
 }
