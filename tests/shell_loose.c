@@ -174,3 +174,37 @@ Test(shell_loose, plates)
     plates(corner, "{at: one.u0, fix: all}, {at: two.u1, fix: y}", NULL);
     plates(other, "{at: one.u0, fix: all}", "let \"two\" turn about (");
 }
+
+/* What is no number or no wall is never measured, and told with its place. */
+Test(shell_loose, odd)
+{
+    static const struct {
+        const char *thickness, *line;
+        ves_status status;
+        const char *told;
+    } odd[] = {
+        {"0.01", "sqrt(u - 2)", VES_NO_NUMBER, "this load, on \"wall\" at u = 1, v = 0 is not a number"},
+        {"0.01", "1/(u - 1)", VES_NO_NUMBER, "this load, on \"wall\" at u = 1, v = 0 is infinite"},
+        {"0.01*(u - 0.5)", "1", VES_NO_WALL,
+         "the thickness of \"wall\" at u = 0, v = 0 must be > 0, got -0.005"},
+        {"sqrt(u - 2)", "1", VES_NO_WALL, "must be > 0, got no number"},
+        {"8", "1", VES_DEGENERATE, "8 thick, turns over"}};
+    for (size_t k = 0; k < sizeof odd / sizeof *odd; k++) {
+        char text[1000], message[1000] = "";
+        snprintf(
+            text, sizeof text,
+            "vesica: 1\npatches: {wall: {surface: {formula: [2*cos(v), 3*u, 2*sin(v)]}}}\n"
+            "shell:\n  parts: {wall: {thickness: \"%s\"}}\n  material: {E: 1e7, nu: 0.3}\n"
+            "  supports: [{at: wall.u0, fix: all}]\n  cases: {load: [{at: wall.u1, line: [0, \"%s\", 0]}]}\n"
+            "measures: {d: {displacement: {}}}\nminimize: d\n",
+            odd[k].thickness, odd[k].line);
+        bed b;
+        ves_verdict verdict = verdict_of(&b, text);
+        cr_expect_eq(verdict.status, odd[k].status, "%s: %s", ves_status_text(verdict.status), text);
+        int before = ves_diag_count(b.diag);
+        ves_plan_why(b.plan, verdict.status, "here", b.diag);
+        ves_diag_text(b.diag, before, message, sizeof message);
+        cr_expect(strstr(message, odd[k].told) && strstr(message, "test.yaml:"), "%s", message);
+        bed_clear(&b);
+    }
+}

@@ -213,7 +213,9 @@ ves_status ves_shell_run(ves_plan *plan, int index)
     plan_shell *shell = plan->level[index].shell;
     if (shell->solved) return shell->outcome;
     input_fill(plan, shell);
-    shell->outcome = has_walls(shell) ? ves_shell_solve(shell->shell, &shell->input) : VES_NO_WALL;
+    shell->outcome = !has_walls(shell)  ? VES_NO_WALL
+                     : shell->odd.found ? VES_NO_NUMBER
+                                        : ves_shell_solve(shell->shell, &shell->input);
     shell->solved = true;
     return shell->outcome;
 }

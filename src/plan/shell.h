@@ -33,6 +33,14 @@ typedef struct plan_shell_part {
 
 typedef struct plan_shell_slopes plan_shell_slopes; /* shell_gradient.c */
 
+/* A load, or (part -1) a spring, that is no number. */
+typedef struct plan_shell_odd {
+    bool found;
+    ves_mark mark;
+    double value;
+    int part, s;
+} plan_shell_odd;
+
 struct plan_shell {
     const ves_shell_def *def;
     int level;
@@ -62,6 +70,7 @@ struct plan_shell {
     plan_shell_slopes *slopes; /* NULL: there are no gradients */
     bool solved;               /* since the sites were sampled */
     ves_status outcome;        /* of that */
+    plan_shell_odd odd;
     ves_shell_view view;
 };
 
@@ -76,8 +85,8 @@ ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell);
 /* v of the place in the sector that stands for a place of the whole, where displacements are map times those there. */
 double ves_sector_place(const plan_sector *sector, double v, double map[3][3]);
 
-/* shell_loose.c: tells, "what: ...", how the shell of some level moves that was found loose last; false: none was. */
-bool ves_shell_loose_tell(const ves_plan *plan, const char *what, ves_diag *diag);
+/* shell_why.c: tells, "what: ...", what of the shell makes that status; false: nothing does. */
+bool ves_shell_why(const ves_plan *plan, ves_status status, const char *what, ves_diag *diag);
 
 /* shell_mesh.c: sheets and their nodes */
 ves_status ves_shell_mesh(ves_plan *plan, plan_shell *shell, ves_diag *diag);

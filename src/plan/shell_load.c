@@ -81,6 +81,19 @@ double ves_shell_formula(ves_plan *plan, const plan_shell *shell, int part, int 
     return ves_formula_eval(formula, plan->block, at, plan->formula_room);
 }
 
+/* Component c of a load, or stiffness, at a node; the first that is no number is kept for telling. */
+static double noted(plan_shell *shell, double value, ves_mark mark, int part, int s)
+{
+    if (!isfinite(value) && !shell->odd.found) shell->odd = (plan_shell_odd){true, mark, value, part, s};
+    return value;
+}
+
+static double load_at(ves_plan *plan, plan_shell *shell, const ves_load_def *load, int c, const int at[2])
+{
+    double value = ves_shell_formula(plan, shell, at[0], at[1], load->formula[c]);
+    return noted(shell, value, load->mark, at[0], at[1]);
+}
+
 static void surface_fill(ves_plan *plan, plan_shell *shell, const ves_load_def *load, int part,
                          ves_shell_load *to)
 {
@@ -91,7 +104,7 @@ static void surface_fill(ves_plan *plan, plan_shell *shell, const ves_load_def *
         double factor = load->kind == VES_LOAD_GRAVITY ? density * shell->part[part].thickness[s] : 1;
         for (int c = 0; c < (pressure ? 1 : 3); c++) {
             double *plane = (double *)(pressure ? to->pressure : to->area[c]);
-            plane[s] += factor * ves_shell_formula(plan, shell, part, s, load->formula[c]);
+            plane[s] += factor * load_at(plan, shell, load, c, (int[]){part, s});
         }
     }
 }
@@ -105,11 +118,11 @@ static void edge_fill(ves_plan *plan, plan_shell *shell, const ves_load_def *loa
         load->kind == VES_LOAD_LINE
             ? 1
             : 1 / (shell->sector.copies * ves_shell_length(shell->shell, &shell->input, on->part, on->edge));
-    for (int k = 0; k < ves_shell_edge_count(sheet, on->edge); k++)
+    for (int k = 0; k < ves_shell_edge_count(sheet, on->edge); k++) {
+        const int at[2] = {on->part, ves_shell_edge_node(sheet, on->edge, k)};
         for (int c = 0; c < 3; c++)
-            ((double *)to->line[on->edge][c])[k] +=
-                share * ves_shell_formula(plan, shell, on->part, ves_shell_edge_node(sheet, on->edge, k),
-                                          load->formula[c]);
+            ((double *)to->line[on->edge][c])[k] += share * load_at(plan, shell, load, c, at);
+    }
 }
 
 static void case_clear(plan_shell *shell, int which)
@@ -143,7 +156,7 @@ static void case_fill(ves_plan *plan, plan_shell *shell, int which, int *points)
         ves_shell_point *point = &shell->point[(*points)++];
         *point = (ves_shell_point){.which = which, .node = shell->part[load->at.part].weld[s]};
         for (int c = 0; c < 3; c++)
-            point->force[c] = ves_shell_formula(plan, shell, load->at.part, s, load->formula[c]);
+            point->force[c] = load_at(plan, shell, load, c, (int[]){load->at.part, s});
     }
 }
 
@@ -155,6 +168,7 @@ static void springs_fill(ves_plan *plan, plan_shell *shell)
     for (int k = 0; k < shell->def->supports; k++) {
         const ves_support_def *s = &shell->def->support[k];
         if (s->kind != VES_SUPPORT_SPRING) continue;
+        for (int c = 0; c < 3; c++) noted(shell, plan->block[s->spring + c], s->mark, -1, 0);
         if (s->at.kind == VES_AT_PLACE) {
             int node = shell->part[s->at.part].weld[ves_shell_place(plan, shell, &s->at)];
             for (int c = 0; c < 3; c++) shell->node[node].spring[c] += plan->block[s->spring + c];
@@ -169,6 +183,7 @@ static void springs_fill(ves_plan *plan, plan_shell *shell)
 void ves_shell_loads_fill(ves_plan *plan, plan_shell *shell)
 {
     int points = 0;
+    shell->odd.found = false;
     for (int p = 0; p < shell->def->parts; p++)
         for (int s = 0; s < shell->part[p].count; s++)
             shell->part[p].thickness[s] = ves_shell_formula(plan, shell, p, s, shell->def->part[p].thickness);

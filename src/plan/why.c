@@ -175,14 +175,13 @@ static bool broken_tell(const ves_plan *plan, const char *what, ves_diag *diag)
 void ves_plan_why(ves_plan *plan, ves_status status, const char *what, ves_diag *diag)
 {
     spot at;
-    if (status <= VES_OK) return;
+    if (status <= VES_OK || ves_shell_why(plan, status, what, diag)) return;
     if (status == VES_OUTSIDE && outside_tell(plan, what, diag)) return;
     if (status == VES_NO_POINT && spot_find(plan, &at)) {
         spot_tell(plan, VES_WARNING, &at, what, diag);
         return;
     }
     if (status == VES_NO_NUMBER && number_tell(plan, what, diag)) return;
-    if (status == VES_LOOSE && ves_shell_loose_tell(plan, what, diag)) return;
     if (status == VES_BROKEN && broken_tell(plan, what, diag)) return;
     if ((status == VES_NOT_ELLIPTIC || status == VES_UNDETERMINED) &&
         ves_plan_elliptic_tell(plan, what, diag))

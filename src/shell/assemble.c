@@ -100,6 +100,7 @@ ves_status ves_shell_assemble(ves_shell *shell, const shell_layout *layout)
         const shell_element *e = &shell->element[i];
         ves_shell_body body = ves_shell_gather(shell, e);
         int columns = ves_shell_columns_of(shell, layout, e);
+        shell->turned = i;
         VES_TRY(ves_shell_stiffness(&body, &shell->input->material, columns, shell->column, &shell->scratch,
                                     shell->K));
         ves_shell_firm_add(shell, e, columns);

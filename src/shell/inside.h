@@ -54,6 +54,7 @@ struct ves_shell {
     int *order, *rank;      /* [nodes] in which they are eliminated, and back */
     int elements;
     shell_element *element;
+    int turned; /* the element that was assembled last */
     int widest; /* columns of an element, most */
     ves_shell_scratch scratch;
     double (*X)[3], (*V)[3], (*U)[3], (*A)[3]; /* [nodes of an element] */

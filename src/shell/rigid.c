@@ -1,7 +1,8 @@
-/* Is the shell held? What its elements can do without strain is known: each *body*, sheets that have two or more welded
- * nodes in common, moves as a rigid one, U = a + b x (X - c), and bodies that meet in one node there move and turn alike
- * but about their normals. Of these few numbers the supports, the joints and the sector's tie ask that sums of them be
- * zero; on what is left springs work. Nothing here reads the stiffness matrix, whose rounding hides what it does not hold. */
+/* Is the shell held? What its elements can do without strain is known: each *body*, sheets that have two or more
+ * welded nodes in common, moves as a rigid one, U = a + b x (X - c), and bodies that meet in one node there move and
+ * turn alike but about their normals. Of these few numbers the supports, the joints and the sector's tie ask that
+ * sums of them be zero; on what is left springs work. Nothing here reads the stiffness matrix, whose rounding hides
+ * what it does not hold. */
 #include "shell/inside.h"
 
 #include <math.h>

@@ -107,6 +107,9 @@ int ves_shell_freedoms(const ves_shell *shell);
  * over or has no thickness. VES_LOOSE: the supports let it move without strain. */
 ves_status ves_shell_solve(ves_shell *shell, const ves_shell_input *input);
 
+/* Where the element is that was found turned over: the middle of its nodes. */
+void ves_shell_turned(const ves_shell *shell, int *sheet, int *s);
+
 /* How it moves that is loose: along a way, or about it through a point; of the whole, or of what is connected with a sheet. */
 typedef struct ves_shell_motion {
     bool turns, whole;

@@ -145,6 +145,12 @@ const double *ves_shell_state(const ves_shell *shell, int which)
     return (const double *)shell->solution->x + (size_t)which * shell->solution->d;
 }
 
+void ves_shell_turned(const ves_shell *shell, int *sheet, int *s)
+{
+    const shell_element *e = &shell->element[shell->turned];
+    *sheet = e->sheet, *s = e->s[shell->kind[e->sheet].nodes / 2];
+}
+
 double ves_shell_work(const ves_shell *shell, int which)
 {
     const double *u = ves_shell_state(shell, which),
