@@ -197,9 +197,8 @@ static bool take_trace(app *a, const char *value)
 
 static bool take_colour(app *a, const char *value)
 {
-    a->options.colour = value;
-    return ves_words_find("patch|H|K|k1|k2", value) >= 0 ||
-           wrong(a, "--colour is patch, H, K, k1 or k2, not \"%s\"", value);
+    a->options.colour = value; /* what there is depends on the file */
+    return *value || wrong(a, "--colour needs a word, got \"%s\"", value);
 }
 
 static bool take_unit(app *a, const char *value)
@@ -285,7 +284,7 @@ static const option table[] = {
     {"unit", "UNIT", "of the lengths in the files: mm, cm ...; m, unless said, whatever the problem file writes", take_unit},
     {"grid", "NUxNV", "cells along u and v of each patch", take_grid},
     {"png", "FILE", "where to; the ending png, svg or pdf says what (a shape: NAME.png unless said)", take_png},
-    {"colour", "patch|H|K|k1|k2", "what the colours show: patches, or the mean (H, unless said), Gauss, largest or least curvature", take_colour},
+    {"colour", "WHAT", "patch, H (unless said), K, k1, k2; of a shell thickness, max_shear, von_mises or displacement, with several load cases as max_shear:CASE", take_colour},
     {"view", "AZIMUTH,HEIGHT", "where the viewer stands, in degrees", take_view},
     {"reference", NULL, "the reference chapter of the manual instead, in Markdown", take_reference},
     {"suite", NULL, "of suite files (vesica bench)", take_suite},

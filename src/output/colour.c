@@ -91,3 +91,13 @@ ves_colour_scale ves_colour_scale_of(double *values, int count, double noise, do
     scale.above = values[kept - 1] > scale.hi + slack;
     return scale;
 }
+
+ves_colour_scale ves_colour_scale_whole(const double *values, int count)
+{
+    double lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (int k = 0; k < count; k++)
+        if (isfinite(values[k])) lo = fmin(lo, values[k]), hi = fmax(hi, values[k]);
+    if (!(hi > 0)) return (ves_colour_scale){.lo = -1, .hi = 1, .constant = true};
+    if (hi - lo <= 1e-6 * hi) return (ves_colour_scale){.lo = 0, .hi = lo + hi, .constant = true};
+    return (ves_colour_scale){.lo = lo, .hi = hi};
+}

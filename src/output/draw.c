@@ -32,7 +32,8 @@ static bool has_names(const ves_figure *figure)
 ves_frame ves_draw_frame(const ves_figure *figure, const ves_view *view)
 {
     double unit = ves_draw_unit(view), side = 40 * unit;
-    bool legend = ves_scene_quantity(view->colour) > 0;
+    ves_quantity quantity;
+    bool legend = ves_quantity_find(figure, view->colour, &quantity);
     double right = legend || has_names(figure) ? 130 * unit : side;
     double top = figure->title && figure->title[0] ? 76 * unit : side;
     ves_frame frame = {side, top, view->width - right, view->height - 66 * unit, 0};
@@ -243,20 +244,49 @@ static void axes(const sheet *s)
     }
 }
 
-static void legend_title(const sheet *s, double x, double y)
+/* The unit that numbers up to `most` are short in, and what it is of the one that they are in. */
+typedef struct prefix {
+    const char *unit, *shown;
+    double is;
+} prefix;
+
+static prefix prefix_of(const char *unit, double most)
 {
-    static const char *const meaning[] = {"", "mean curvature", "Gauss curvature", "largest curvature",
-                                          "least curvature"};
-    char text[LABEL];
-    const char *word = s->view->colour, *unit = s->figure->unit;
-    bool gauss = !strcmp(word, "K");
+    static const prefix known[] = {{"Pa", "GPa", 1e9}, {"Pa", "MPa", 1e6}, {"Pa", "kPa", 1e3},
+                                   {"Pa", "Pa", 1},    {"m", "m", 1},      {"m", "mm", 1e-3},
+                                   {"m", "µm", 1e-6},  {"m", "nm", 1e-9}};
+    prefix best = {unit, unit, 1};
+    for (size_t k = 0; unit && k < sizeof known / sizeof *known; k++) {
+        if (strcmp(known[k].unit, unit) != 0) continue;
+        best = known[k];
+        if (most >= known[k].is) break;
+    }
+    return best;
+}
+
+static prefix shown_in(const sheet *s, const ves_quantity *quantity)
+{
+    const ves_colour_scale *scale = &s->scene->colours;
+    double most = scale->constant ? (scale->lo + scale->hi) / 2 : scale->hi;
+    return prefix_of(s->figure->unit ? quantity->unit : NULL, most);
+}
+
+static void legend_title(const sheet *s, double x, double y, const ves_quantity *quantity)
+{
+    char text[LABEL], about[LABEL];
+    const char *unit = quantity->unit ? shown_in(s, quantity).shown : NULL;
     font(s, 12, false);
     colour(s, ves_ink, 1);
-    write_text(s, s->view->width - 16 * s->unit, y - 18 * s->unit, 1, meaning[ves_scene_quantity(word)]);
-    if (unit)
-        snprintf(text, sizeof text, "%s (1/%s%s)", word, unit, gauss ? "²" : "");
+    snprintf(about, sizeof about, "%s%s%s", quantity->about, quantity->of ? ", " : "",
+             quantity->of ? quantity->of : "");
+    write_text(s, s->view->width - 16 * s->unit, y - 18 * s->unit, 1, about);
+    if (quantity->field)
+        snprintf(text, sizeof text, "%s", unit ? unit : "");
+    else if (s->figure->unit && quantity->curvature)
+        snprintf(text, sizeof text, "%s (1/%s%s)", quantity->word, s->figure->unit,
+                 quantity->curvature == 2 ? "²" : "");
     else
-        snprintf(text, sizeof text, "%s", word);
+        snprintf(text, sizeof text, "%s", quantity->word);
     font(s, 13, true);
     colour(s, ves_ink, 1);
     write_text(s, x, y, 0, text);
@@ -287,24 +317,26 @@ static void legend_tick(const sheet *s, double x, double y, double value)
 }
 
 /* Of a constant: what it is. */
-static void legend_ticks(const sheet *s, double x, double top, double height)
+static void legend_ticks(const sheet *s, double x, double top, double height, double one)
 {
     const ves_colour_scale *scale = &s->scene->colours;
-    double range = scale->hi - scale->lo, step = ves_step_below(range / 4);
+    double range = scale->hi - scale->lo, step = one * ves_step_below(range / one / 4);
     font(s, 12, false);
     cairo_set_line_width(s->cairo, s->unit);
     if (scale->constant) {
-        legend_tick(s, x, top + height / 2, (scale->lo + scale->hi) / 2);
+        legend_tick(s, x, top + height / 2, (scale->lo + scale->hi) / 2 / one);
         return;
     }
     for (double k = ceil(scale->lo / step - 1e-9); k * step <= scale->hi + 1e-9 * range; k++) {
         double value = fabs(k) < 0.5 ? 0 : k * step;
-        legend_tick(s, x, top + height * (scale->hi - value) / range, value);
+        legend_tick(s, x, top + height * (scale->hi - value) / range, value / one);
     }
 }
 
 static void legend(const sheet *s)
 {
+    ves_quantity quantity;
+    if (!ves_quantity_find(s->figure, s->view->colour, &quantity)) return;
     const ves_colour_scale *scale = &s->scene->colours;
     double x = s->view->width - 100 * s->unit, width = 16 * s->unit;
     double height = scale->constant ? width : 0.46 * s->view->height;
@@ -321,8 +353,8 @@ static void legend(const sheet *s)
     cairo_pattern_destroy(fade);
     if (scale->above) legend_point(s, x, top, width, -point, scale->hi);
     if (scale->below) legend_point(s, x, top + height, width, point, scale->lo);
-    legend_ticks(s, x + width, top, height);
-    legend_title(s, x, top - 20 * s->unit);
+    legend_ticks(s, x + width, top, height, shown_in(s, &quantity).is);
+    legend_title(s, x, top - 20 * s->unit, &quantity);
 }
 
 static void names(const sheet *s)

@@ -16,13 +16,11 @@ static ves_status refuse(ves_diag *diag, ves_status status, const char *what, co
     return ves_diag_add(diag, VES_ERROR, status, (ves_mark){0}, what, word);
 }
 
-static ves_status check(const ves_view *view, const char *path, ves_diag *diag)
+static ves_status check(const ves_figure *figure, const ves_view *view, const char *path, ves_diag *diag)
 {
     if (ves_paper_kind_of(path) == VES_PAPER_NONE)
         return refuse(diag, VES_NAME, "a picture's name ends in .png, .svg or .pdf, not \"%s\"", path);
-    if (ves_scene_quantity(view->colour) < 0)
-        return refuse(diag, VES_NAME, "no colour \"%s\" (known: patch, H, K, k1, k2)",
-                      view->colour ? view->colour : "");
+    VES_TRY(ves_quantity_check(figure, view->colour, diag));
     if (view->width < LEAST || view->height < LEAST || view->width > MOST || view->height > MOST)
         return refuse(diag, VES_RANGE, "a picture is %s pixels wide and high", "64 to 16384");
     return VES_OK;
@@ -47,7 +45,7 @@ ves_status ves_picture_write(ves_figure *figure, const ves_view *view, const cha
     ves_view whole = view ? *view : ves_view_default();
     if (!whole.width) whole.width = WIDTH;
     if (!whole.height) whole.height = HEIGHT;
-    VES_TRY(check(&whole, path, diag));
+    VES_TRY(check(figure, &whole, path, diag));
     ves_frame frame = ves_draw_frame(figure, &whole);
     frame.cell = ves_paper_kind_of(path) == VES_PAPER_PNG ? cell_pixels : 0;
     ves_status status = ves_scene_build(&scene, figure, &whole, &frame, &arena);

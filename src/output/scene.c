@@ -9,11 +9,6 @@
 
 enum { REFINE = 12, AROUND = 24, CAP_MOST = 64, PIECES = 1000000 };
 
-int ves_scene_quantity(const char *word)
-{
-    return word ? ves_words_find("patch|H|K|k1|k2", word) : -1;
-}
-
 static double normalise(double a[3])
 {
     double size = sqrt(ves_dot(a, a));
@@ -167,6 +162,8 @@ typedef struct maker {
     bool closed;          /* nobody sees the inside */
 } maker;
 
+static const ves_rgb grey = {0.80, 0.81, 0.82}; /* what has no value to show */
+
 /* Value of a plane at (i, j) + (fu, fv), bilinear. */
 static double blend(const maker *m, const double *plane, int i, int j, double fu, double fv)
 {
@@ -308,7 +305,6 @@ static void cap_fineness(const maker *m, double (*const x)[3], int fine[2])
 /* A cap has no curvature to show: then it is grey. Nobody sees a closed shape's caps from inside. */
 static long cap_add(const maker *m, int end, int *corner, bool draw)
 {
-    static const ves_rgb grey = {0.80, 0.81, 0.82};
     const ves_figure_patch *p = m->p;
     double x[3][3], middle[3];
     long pieces = 0;
@@ -407,6 +403,7 @@ static void maker_init(maker *m, ves_scene *scene, const ves_figure *figure, int
                  .base = ves_colour_patch(patch),
                  .closed = figure->closed && !(ves_dot(scene->camera.cut, scene->camera.cut) > 0)};
     m->plane = scene->plane ? scene->plane[patch] : NULL;
+    if (scene->plane && !m->plane) m->base = grey; /* it is no part of the shell */
     m->fine[0] = refinement(u / p->nu * scene->camera.scale, cell);
     m->fine[1] = refinement(v / p->nv * scene->camera.scale, cell);
     /* As many lines along u as make the drawn meshes square, within reason. */
@@ -439,15 +436,16 @@ static void curves_add(const maker *m)
 }
 
 /* The planes of one scene; their values go behind the `count` that are there. */
-static ves_status planes_find(ves_scene *scene, const ves_figure *figure, int quantity, ves_arena *arena,
-                              double *values, int *count)
+static ves_status planes_find(ves_scene *scene, const ves_figure *figure, const ves_quantity *quantity,
+                              ves_arena *arena, double *values, int *count)
 {
     const double **plane = ves_arena_take(arena, (size_t)figure->patches, sizeof *plane);
     if (!plane) return VES_MEMORY;
     for (int k = 0; k < figure->patches; k++) {
         const ves_figure_patch *p = &figure->patch[k];
-        const double *const choice[] = {NULL, p->H, p->K, p->k1, p->k2};
-        plane[k] = choice[quantity];
+        const double *const choice[] = {p->H, p->K, p->k1, p->k2};
+        plane[k] = quantity->field ? quantity->field->value[k] : choice[quantity->plane];
+        if (!plane[k]) continue;
         memcpy(values + *count, plane[k], (size_t)nodes(p) * sizeof *values);
         *count += nodes(p);
     }
@@ -455,22 +453,27 @@ static ves_status planes_find(ves_scene *scene, const ves_figure *figure, int qu
     return VES_OK;
 }
 
-/* One scale for all. */
-static ves_status colours_find(ves_scene *scene, const ves_figure *const *figure, int scenes, int quantity,
-                               ves_arena *arena)
+/* One scale for all: of curvatures without their few largest, of a shell from the least to the largest. */
+static ves_status colours_find(ves_scene *scene, const ves_figure *const *figure, int scenes,
+                               const char *word, ves_arena *arena)
 {
     int all = 0, count = 0;
     double size = 0;
+    ves_quantity quantity;
+    if (!ves_quantity_find(figure[0], word, &quantity)) return VES_OK;
     for (int s = 0; s < scenes; s++) {
         size = fmax(size, scene[s].size);
         for (int k = 0; k < figure[s]->patches; k++) all += nodes(&figure[s]->patch[k]);
     }
     double *values = ves_arena_doubles(arena, (size_t)all),
-           unit = quantity == 2 ? 1 / (size * size) : 1 / size;
+           unit = quantity.curvature == 2 ? 1 / (size * size) : 1 / size;
     if (!values) return VES_MEMORY;
-    for (int s = 0; s < scenes; s++)
-        VES_TRY(planes_find(&scene[s], figure[s], quantity, arena, values, &count));
-    scene[0].colours = ves_colour_scale_of(values, count, 1e-6 * unit, unit);
+    for (int s = 0; s < scenes; s++) {
+        if (s > 0 && !ves_quantity_find(figure[s], word, &quantity)) return VES_FAULT;
+        VES_TRY(planes_find(&scene[s], figure[s], &quantity, arena, values, &count));
+    }
+    scene[0].colours = quantity.curvature ? ves_colour_scale_of(values, count, 1e-6 * unit, unit)
+                                          : ves_colour_scale_whole(values, count);
     for (int s = 1; s < scenes; s++) scene[s].colours = scene[0].colours;
     return VES_OK;
 }
@@ -543,9 +546,8 @@ static void cameras_set(ves_scene *scene, const ves_figure *const *figure, int s
 ves_status ves_scenes_build(ves_scene *scene, const ves_figure *const *figure, int scenes,
                             const ves_view *view, const ves_frame *frame, ves_arena *arena)
 {
-    int quantity = ves_scene_quantity(view->colour);
     cameras_set(scene, figure, scenes, view, frame);
-    if (quantity > 0) VES_TRY(colours_find(scene, figure, scenes, quantity, arena));
+    VES_TRY(colours_find(scene, figure, scenes, view->colour, arena));
     for (int s = 0; s < scenes; s++) VES_TRY(pieces_make(&scene[s], figure[s], view, frame[s].cell, arena));
     return VES_OK;
 }

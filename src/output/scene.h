@@ -26,6 +26,9 @@ ves_rgb ves_colour_mix(ves_rgb a, ves_rgb b, double share); /* share of b */
  * than `noise` in all is zero, `unit` the half-width given to a constant. */
 ves_colour_scale ves_colour_scale_of(double *values, int count, double noise, double unit);
 
+/* From the least to the largest of values that are not negative. */
+ves_colour_scale ves_colour_scale_whole(const double *values, int count);
+
 /* A step of 1, 2 or 5 times a power of ten, the largest that is at most `step`. */
 double ves_step_below(double step);
 
@@ -52,7 +55,7 @@ typedef struct ves_piece {
 
 typedef struct ves_scene {
     ves_camera camera;
-    const double *const *plane; /* [patches] the coloured quantity; NULL: patch colours */
+    const double *const *plane; /* [patches] the coloured quantity; NULL: patch colours (of one patch: its) */
     ves_colour_scale colours;
     double size; /* half the diagonal of the bounding box */
     ves_piece *piece;
@@ -73,7 +76,18 @@ ves_status ves_scene_build(ves_scene *scene, const ves_figure *figure, const ves
 ves_status ves_scenes_build(ves_scene *scene, const ves_figure *const *figure, int scenes,
                             const ves_view *view, const ves_frame *frame, ves_arena *arena);
 
-/* Index of "patch", "H", "K", "k1", "k2", or -1. */
-int ves_scene_quantity(const char *word);
+/* What the colours of a figure may show. */
+typedef struct ves_quantity {
+    const char *word, *about, *of; /* "max_shear", "largest shear", the load case or NULL */
+    const char *unit;              /* of the number; NULL: 1 over metres to this power */
+    int curvature;                 /* 1 H, k1, k2; 2 K; 0: of a shell */
+    int plane;                     /* which of H, K, k1, k2 */
+    const ves_figure_field *field; /* of a shell; NULL: a curvature */
+} ves_quantity;
+
+/* False: the word is "patch", or (ves_quantity_tell) none. */
+bool ves_quantity_find(const ves_figure *figure, const char *word, ves_quantity *quantity);
+/* VES_NAME, told: the figure has no such quantity, or several. */
+ves_status ves_quantity_check(const ves_figure *figure, const char *word, ves_diag *diag);
 
 #endif

@@ -378,6 +378,7 @@ static ves_status whole_make(ves_plan *plan, int nu, int nv, ves_figure **figure
                      : ves_plan_figure_make(plan, nu > 0 ? nu : 0, nv > 0 ? nv : 0, figure));
     ves_status status = spines_sample(plan, *figure);
     if (status == VES_OK) status = ves_figure_shell_make(plan, *figure);
+    if (status == VES_OK) status = ves_figure_fields_make(plan, *figure);
     if (status != VES_OK) ves_figure_destroy(*figure), *figure = NULL;
     return status;
 }

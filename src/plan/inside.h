@@ -220,6 +220,9 @@ ves_status ves_plan_crosses(ves_plan *plan);
 ves_status ves_figure_shell_make(const ves_plan *plan, ves_figure *figure);
 void ves_figure_cells(const ves_figure *coarse, int *nu, int *nv);
 
+/* figure_field.c: what is known of its solution, of the design that is bound */
+ves_status ves_figure_fields_make(ves_plan *plan, ves_figure *figure);
+
 /* why.c: is every point of the figure finite? Else an error "what: ...". */
 bool ves_plan_figure_finite(const ves_plan *plan, const ves_figure *figure, const char *what, ves_diag *diag);
 

@@ -1,6 +1,7 @@
 #include "surface/figure.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/vector.h"
 
@@ -22,6 +23,29 @@ static void times(double *plane, int count, double factor)
     for (int k = 0; plane && k < count; k++) plane[k] *= factor;
 }
 
+static void field_scale(const ves_figure *figure, const ves_figure_field *field, double factor)
+{
+    for (int k = 0; k < figure->patches && field->power; k++) {
+        int count = figure->patch[k].rows * figure->patch[k].columns;
+        times(field->value[k], count, pow(factor, field->power));
+        for (int c = 0; field->vector && c < 3; c++)
+            times(field->vector[k][c], count, pow(factor, field->power));
+    }
+}
+
+int ves_figure_fields(const ves_figure *figure, const char *word, const ves_figure_field **field)
+{
+    int found = 0;
+    for (int k = 0; figure->shell && k < figure->shell->fields; k++) {
+        const ves_figure_field *f = &figure->shell->field[k];
+        size_t length = strlen(f->name);
+        bool named = !strncmp(word, f->name, length) && (!word[length] || (word[length] == ':' && f->of));
+        if (!named || (word[length] && strcmp(word + length + 1, f->of) != 0)) continue;
+        if (found++ == 0) *field = f;
+    }
+    return found;
+}
+
 /* Newtons and seconds stay. */
 static void shell_scale(const ves_figure *figure, double factor)
 {
@@ -33,6 +57,7 @@ static void shell_scale(const ves_figure *figure, double factor)
     for (int k = 0; k < shell->supports; k++)
         for (int n = 0; shell->support[k].spring && n < shell->support[k].nodes; n++)
             times(shell->support[k].spring[n], 3, 1 / factor);
+    for (int k = 0; k < shell->fields; k++) field_scale(figure, &shell->field[k], factor);
 }
 
 void ves_figure_scale(ves_figure *figure, double factor, const char *unit)

@@ -49,6 +49,16 @@ typedef struct ves_figure_case {
     double *(*force)[3]; /* [patches] planes of forces at nodes, N; NULL of patches that are no parts */
 } ves_figure_case;
 
+/* A quantity of a shell at the nodes of its parts. */
+typedef struct ves_figure_field {
+    const char *name, *of; /* "max_shear"; the load case, NULL: it is of none */
+    const char *about;     /* "largest shear" */
+    const char *unit;      /* "Pa", "m" */
+    int power;             /* of lengths: by which it is scaled; 0: with its owner */
+    double **value;        /* [patches] planes; NULL: no part of the shell */
+    double *(*vector)[3];  /* [patches] of a vector, whose length `value` is; NULL: it is none */
+} ves_figure_field;
+
 /* A shaped shell as what finite elements (surface/elements.h) over the grids of its figure need. */
 typedef struct ves_figure_shell {
     const char *refused;      /* why these grids cannot carry it; NULL: they can */
@@ -60,7 +70,12 @@ typedef struct ves_figure_shell {
     const ves_figure_support *support;
     const ves_figure_case *load_case;
     int factors; /* buckling factors that are asked for in each case */
+    int fields;
+    const ves_figure_field *field;
 } ves_figure_shell;
+
+/* The fields called "name" or "name:case": how many, and the first. */
+int ves_figure_fields(const ves_figure *figure, const char *word, const ves_figure_field **field);
 
 /* mesh.c: ves_figure_mesh welds by index (ends on the same seam, which must have the same nv), never by
  * distance. */

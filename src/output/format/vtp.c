@@ -1,6 +1,7 @@
 /* VTK XML PolyData, appended raw. Patches keep their own points along shared curves (they coincide to the
  * bit; "Clean to Grid" or clean() joins them), since normals and curvatures may jump there. Caps are
- * patch -1, curvature 0. */
+ * patch -1, curvature 0. Of a shell its thickness, stresses and displacements; NaN off its parts. */
+#include <math.h>
 #include <stdint.h>
 
 #include "base/diag.h"
@@ -9,9 +10,48 @@
 #include "output/output.h"
 
 /* The scalars of a point, in the order of the file. */
-enum { SCALARS = 6 };
+enum { SCALARS = 6, FIELD_NAME = 100 };
 
 static const char *const scalar_name[SCALARS] = {"H", "K", "k1", "k2", "u", "v"};
+
+/* --- fields of a shell --- */
+
+static bool is_hidden(const ves_figure_patch *p, int node)
+{
+    int row = node / p->columns;
+    return ((row == 0 && p->pole[0]) || (row == p->nu && p->pole[1])) && node % p->columns;
+}
+
+/* Which node of its patch a vertex is: patches come one after the other, of a pole the first node alone; -1: of a cap. */
+static ves_status nodes_find(const ves_figure *figure, const ves_mesh *mesh, ves_arena *arena, int **node)
+{
+    *node = ves_arena_take(arena, (size_t)mesh->vertices, sizeof **node);
+    if (!*node) return VES_MEMORY;
+    for (int k = 0, patch = -1, next = 0; k < mesh->vertices; k++) {
+        (*node)[k] = -1;
+        if (mesh->patch[k] < 0) continue;
+        if (mesh->patch[k] != patch) patch = mesh->patch[k], next = 0;
+        while (is_hidden(&figure->patch[patch], next)) next++;
+        (*node)[k] = next++;
+    }
+    return VES_OK;
+}
+
+static int fields_of(const ves_figure *figure)
+{
+    return figure->shell ? figure->shell->fields : 0;
+}
+
+static void field_name(const ves_figure_field *f, char name[FIELD_NAME])
+{
+    snprintf(name, FIELD_NAME, "%s%s%s", f->name, f->of ? "_" : "", f->of ? f->of : "");
+}
+
+static double field_at(const ves_figure_field *f, int patch, int node, int c)
+{
+    if (node < 0 || !f->value[patch]) return NAN; /* no part of the shell */
+    return f->vector ? f->vector[patch][c][node] : f->value[patch][node];
+}
 
 /* A String array is written as the codes of its bytes, each text ended by 0. */
 static void text_write(FILE *out, const char *text)
@@ -60,6 +100,13 @@ static void header_write(FILE *out, const ves_figure *figure, const ves_mesh *me
     at = array_write(out, "Float64", "normals", 3, at) + 24 * points;
     for (int q = 0; q < SCALARS; q++) at = array_write(out, "Float64", scalar_name[q], 1, at) + 8 * points;
     at = array_write(out, "Int32", "patch", 1, at) + 4 * points;
+    for (int q = 0; q < fields_of(figure); q++) {
+        const ves_figure_field *f = &figure->shell->field[q];
+        char name[FIELD_NAME];
+        int components = f->vector ? 3 : 1;
+        field_name(f, name);
+        at = array_write(out, "Float64", name, components, at) + 8 * (uint64_t)components * points;
+    }
     fputs("      </PointData>\n      <Points>\n", out);
     at = array_write(out, "Float64", "Points", 3, at) + 24 * points;
     fputs("      </Points>\n      <Polys>\n", out);
@@ -80,7 +127,16 @@ static void block_write(FILE *out, const void *data, size_t size, int count)
     fwrite(data, size, (size_t)count, out);
 }
 
-static void mesh_write(FILE *out, const ves_figure *figure, const ves_mesh *m)
+static void field_write(FILE *out, const ves_figure_field *f, const ves_mesh *m, const int *node)
+{
+    int components = f->vector ? 3 : 1;
+    block_begin(out, 8 * (size_t)components, m->vertices);
+    for (int k = 0; k < m->vertices; k++)
+        for (int c = 0; c < components; c++)
+            fwrite(&(double){field_at(f, m->patch[k], node[k], c)}, 8, 1, out);
+}
+
+static void mesh_write(FILE *out, const ves_figure *figure, const ves_mesh *m, const int *node)
 {
     const double *const scalar[SCALARS] = {m->H, m->K, m->k1, m->k2, m->u, m->v};
     header_write(out, figure, m);
@@ -88,6 +144,7 @@ static void mesh_write(FILE *out, const ves_figure *figure, const ves_mesh *m)
     for (int q = 0; q < SCALARS; q++) block_write(out, scalar[q], 8, m->vertices);
     block_begin(out, 4, m->vertices);
     for (int k = 0; k < m->vertices; k++) fwrite(&(int32_t){m->patch[k]}, 4, 1, out);
+    for (int q = 0; q < fields_of(figure); q++) field_write(out, &figure->shell->field[q], m, node);
     block_write(out, m->point, 24, m->vertices);
     block_begin(out, 24, m->triangles);
     for (int k = 0; k < 3 * m->triangles; k++) fwrite(&(int64_t){m->corner[k]}, 8, 1, out);
@@ -100,11 +157,21 @@ static ves_status write(ves_figure *figure, const char *path, ves_diag *diag)
 {
     ves_file file;
     ves_mesh mesh;
+    ves_arena arena = {0};
+    int *node;
     ves_status status = ves_figure_mesh(figure, false, &mesh);
-    if (status != VES_OK) return ves_diag_fail(diag, status);
-    VES_TRY(ves_file_begin(&file, path, "vtp", diag));
-    mesh_write(file.out, figure, &mesh);
-    return ves_file_end(&file, VES_OK, diag);
+    if (status == VES_OK) status = nodes_find(figure, &mesh, &arena, &node);
+    if (status != VES_OK) {
+        ves_arena_destroy(&arena);
+        return ves_diag_fail(diag, status);
+    }
+    status = ves_file_begin(&file, path, "vtp", diag);
+    if (status == VES_OK) {
+        mesh_write(file.out, figure, &mesh, node);
+        status = ves_file_end(&file, VES_OK, diag);
+    }
+    ves_arena_destroy(&arena);
+    return status;
 }
 
 /* --- spines: one polyline a patch --- */
