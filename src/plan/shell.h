@@ -5,6 +5,7 @@
 
 #include "plan/inside.h"
 #include "shell/adjoint.h"
+#include "shell/buckling.h"
 #include "shell/view.h"
 
 enum { SHELL_DESIGNS = 3 }; /* at which is looked what is always so: the start, and two drawn */
@@ -84,6 +85,14 @@ ves_status ves_shell_rings(ves_plan *plan, plan_shell *shell);
 ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell);
 /* v of the place in the sector that stands for a place of the whole, where displacements are map times those there. */
 double ves_sector_place(const plan_sector *sector, double v, double map[3][3]);
+
+/* shell_mode.c: the same of a mode of buckling, which need not be as symmetric as the shell: in the whole it is
+ * map (phase[0] U[0] - phase[1] U[1]), with ves_shell_mode at that place of the sector. */
+double ves_sector_mode(const plan_sector *sector, const ves_shell_buckled *mode, double v, double map[3][3],
+                       double phase[2]);
+/* The mode that was found last at a place of the whole: u in 0 .. 1, v in 0 .. 2 pi. The largest is about 1. */
+void ves_shell_mode_at(const plan_shell *shell, const ves_shell_buckled *mode, int part, double u, double v,
+                       double U[3]);
 
 /* shell_why.c: tells, "what: ...", what of the shell makes that status; false: nothing does. */
 bool ves_shell_why(const ves_plan *plan, ves_status status, const char *what, ves_diag *diag);
