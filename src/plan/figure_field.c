@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { OF_A_CASE = 3, LINE = VES_SHELL_ORDER + 1 };
+enum { OF_A_CASE = 3, MOST = OF_A_CASE + 1, LINE = VES_SHELL_ORDER + 1 };
 
 typedef double stress_size(const double stress[VES_STRESSES]);
 
@@ -106,7 +106,7 @@ static void displacement_at(const plan_shell *shell, int which, const spot *s, d
 
 static ves_status planes_make(const plan_shell *shell, ves_figure *figure, ves_figure_field *field)
 {
-    bool vector = !strcmp(field->name, "displacement");
+    bool vector = !strcmp(field->name, "displacement") || !strcmp(field->name, "mode");
     size_t patches = (size_t)figure->patches;
     field->value = ves_arena_take(&figure->arena, patches, sizeof *field->value);
     if (vector) field->vector = ves_arena_take(&figure->arena, patches, sizeof *field->vector);
@@ -155,6 +155,51 @@ static ves_status case_make(const plan_shell *shell, ves_figure *figure, int whi
     return VES_OK;
 }
 
+/* --- modes of buckling --- */
+
+/* Does a measure of the file ask for the buckling of a case? */
+static bool asks_buckling(const ves_plan *plan, int which)
+{
+    for (int m = 0; m < plan->problem->measures; m++) {
+        const ves_measure_def *def = &plan->problem->measure[m];
+        for (int k = 0; def->measure->buckles && plan->runs[PROGRAM_ALL][m] && k < def->args.count; k++)
+            if (def->args.key[k].kind == VES_CASE && def->args.arg[k].value == which) return true;
+    }
+    return false;
+}
+
+static void mode_fill(const plan_shell *shell, const ves_figure *figure, const ves_shell_buckled *mode,
+                      const ves_figure_field *field)
+{
+    for (int part = 0; part < shell->def->parts; part++) {
+        int k = shell->def->part[part].patch;
+        const ves_figure_patch *p = &figure->patch[k];
+        for (int node = 0; node < p->rows * p->columns; node++) {
+            double U[3];
+            ves_shell_mode_at(shell, mode, part, ves_figure_u(p, node), ves_figure_v(p, node), U);
+            field->value[k][node] = sqrt(ves_dot(U, U));
+            for (int c = 0; c < 3; c++) field->vector[k][c][node] = U[c];
+        }
+    }
+}
+
+/* None where the case does not make it buckle. */
+static ves_status mode_make(const plan_shell *shell, ves_figure *figure, int which, const char *name,
+                            int *made, ves_figure_field *field)
+{
+    ves_shell_buckled mode;
+    if (ves_shell_buckling(shell->shell, which, &mode) != VES_OK || !isfinite(mode.factor)) return VES_OK;
+    *field =
+        (ves_figure_field){.name = "mode",
+                           .of = name,
+                           .about = ves_arena_format(&figure->arena, "buckling at %.4g times", mode.factor)};
+    if (!field->about) return VES_MEMORY;
+    VES_TRY(planes_make(shell, figure, field));
+    mode_fill(shell, figure, &mode, field);
+    (*made)++;
+    return VES_OK;
+}
+
 static ves_status solve(ves_plan *plan, plan_shell *shell)
 {
     for (int k = 0; k < shell->def->parts; k++)
@@ -170,7 +215,7 @@ ves_status ves_figure_fields_make(ves_plan *plan, ves_figure *figure)
     ves_figure_shell *to = figure->shell;
     if (!to || !to->thickness) return VES_OK;
     const int cases = plan->problem->shell->cases;
-    ves_figure_field *field = ves_arena_take(&figure->arena, (size_t)(1 + OF_A_CASE * cases), sizeof *field);
+    ves_figure_field *field = ves_arena_take(&figure->arena, (size_t)(1 + MOST * cases), sizeof *field);
     if (!field) return VES_MEMORY;
     field[0] = (ves_figure_field){
         .name = "thickness", .about = "thickness", .unit = "m", .value = (double **)to->thickness};
@@ -178,5 +223,9 @@ ves_status ves_figure_fields_make(ves_plan *plan, ves_figure *figure)
     ves_status status = shell && shell->solid ? solve(plan, shell) : VES_NO_POINT;
     for (int k = 0; k < cases && status == VES_OK; k++, to->fields += OF_A_CASE)
         VES_TRY(case_make(shell, figure, k, field + to->fields));
+    for (int k = 0; k < cases && status == VES_OK; k++)
+        if (asks_buckling(plan, k))
+            VES_TRY(
+                mode_make(shell, figure, k, field[1 + OF_A_CASE * k].of, &to->fields, field + to->fields));
     return status < VES_OK ? status : VES_OK;
 }
