@@ -112,7 +112,7 @@ def vesica(program, file, sets, cases, where, names, factors, folder):
     if not columns:
         return None, 0
     out, seconds = measured([program, "eval", ours, "--json"] + [w for s in sets for w in ("--set", s)], folder)
-    values = json.loads(out[out.index("{"):])["measures"]
+    values = json.JSONDecoder().raw_decode(out, re.search("^{", out, re.M).start())[0]["measures"]
     found = {case: {} for case in cases}
     for (case, column), name in columns.items():
         found[case][column] = [values[name]] if column == "buckling" else values[name]
