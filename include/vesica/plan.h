@@ -146,6 +146,15 @@ typedef struct ves_patch_facts {
 } ves_patch_facts;
 ves_patch_facts ves_plan_patch(const ves_plan *plan, int patch);
 
+/* How the shell is analysed: in searches (level 0), and by what their results must agree with (1). order 0: no measure asks
+ * for a solution. */
+typedef struct ves_shell_facts {
+    int order, elements, freedoms; /* of all parts together */
+    int copies;    /* of what is solved that make the whole; 0: a strip of a surface of revolution */
+    bool mirrored; /* it lies between mirror planes; else it comes again turned, or is the whole */
+} ves_shell_facts;
+ves_shell_facts ves_plan_shell(const ves_plan *plan, int level);
+
 /* Exact values at scattered points (u[k], v[k]) of one patch, 0 <= u <= 1, of the design last evaluated:
  * out[(f * 3 + c) * count + k], f in the order X Xu Xv Xuu Xuv Xvv, c = x, y, z. In the size that `scale:`
  * gives it; not scaled where it failed before that was known (ves_design.similarity). VES_MEMORY; VES_RANGE:

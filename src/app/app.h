@@ -29,8 +29,8 @@ typedef struct app_options {
     uint64_t seed;
     long evaluations;
     int jobs, spine, modes, functions, factors, along, grid[2]; /* along: -1: softest */
-    double metres;                                     /* of the unit of export; 0: none is asked for */
-    double view[2];                                    /* radians: azimuth, height */
+    double metres;       /* of the unit of export; 0: none is asked for */
+    double view[2];      /* radians: azimuth, height */
     const char *decides; /* an option that a resumed run has decided already, or NULL */
     const char *start, *resume, *out, *patch, *points, *to, *unit, *png, *colour, *add;
     const char *over; /* what is under `sweep.over`, or NULL */
@@ -124,8 +124,9 @@ void app_screen_run(const ves_run *run, FILE *out);
 void app_screen_variables(const ves_run *run, FILE *out);
 void app_screen_joints(const ves_run *run, FILE *out);
 /* screen_shell.c: nothing where there is none */
-void app_screen_shell(const ves_problem *problem, FILE *out);
-void app_screen_shell_json(const ves_problem *problem, ves_json *json);
+/* facts: of both levels */
+void app_screen_shell(const ves_problem *problem, const ves_shell_facts facts[2], FILE *out);
+void app_screen_shell_json(const ves_problem *problem, const ves_shell_facts facts[2], ves_json *json);
 void app_screen_design(const ves_problem *problem, const ves_design *design, const ves_design *finer,
                        FILE *out); /* finer: on a finer grid */
 const char *app_screen_number(double value, char buffer[32]);

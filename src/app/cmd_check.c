@@ -13,6 +13,7 @@ typedef struct checked {
     ves_patch_facts *facts;
     bool gradients;                   /* every measure that is judged has one */
     double value_time, gradient_time; /* s; NAN: not measured */
+    ves_shell_facts shell[2];
     ves_elimination elimination[2];
     int eliminations;
 } checked;
@@ -65,6 +66,7 @@ static ves_status look(app *a, checked *c)
     const ves_plan_options grid = {{c->run->quadrature[0], c->run->quadrature[1]}};
     VES_TRY(ves_plan_create(p, &grid, &plan, NULL));
     for (int k = 0; k < p->patches; k++) c->facts[k] = ves_plan_patch(plan, k);
+    for (int k = 0; k < 2; k++) c->shell[k] = ves_plan_shell(plan, k);
     ves_status status = timings(a, c, plan);
     if (status == VES_OK) status = propose(a, c, plan);
     ves_plan_destroy(plan);
@@ -275,7 +277,7 @@ static void json_print(const checked *c)
         ves_json_end(&json, '}');
     }
     ves_json_end(&json, '}');
-    app_screen_shell_json(p, &json);
+    app_screen_shell_json(p, c->shell, &json);
     ves_json_array(&json, "notes"); /* what is wrong with the start */
     for (int k = 0; k < c->run->notes; k++) ves_json_text(&json, NULL, c->run->note[k]);
     ves_json_end(&json, ']');
@@ -303,7 +305,7 @@ static int report(app *a, checked *c)
         app_screen_variables(c->run, stdout);
         patches(c);
         amplifications(c);
-        app_screen_shell(c->run->problem, stdout);
+        app_screen_shell(c->run->problem, c->shell, stdout);
         printf("  start design\n\n");
         app_screen_design(c->run->problem, &c->run->best, &c->run->finer, stdout);
         app_screen_joints(c->run, stdout);

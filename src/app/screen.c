@@ -213,7 +213,10 @@ static const char *axis_of(const ves_measure_def *m)
         {"height", " (along y)"}, {"width", " (along x)"}, {"depth", " (along z)"}};
     for (int k = 0; k < 3; k++)
         if (!strcmp(m->measure->name, fixed[k][0])) return fixed[k][1];
+    bool of_all = false; /* the largest displacement is a length */
     for (int k = 0; k < m->args.count; k++)
+        of_all = of_all || (m->args.key[k].kind == VES_SHELL_AT && !m->args.arg[k].given);
+    for (int k = 0; k < m->args.count && !of_all; k++)
         if (!strcmp(m->args.key[k].name, "along") && !m->args.arg[k].given) return " (along y)";
     return "";
 }

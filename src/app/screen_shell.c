@@ -44,7 +44,22 @@ static void loads_row(app_table *t, const ves_problem *p, const ves_case_def *c)
     app_table_end(t);
 }
 
-void app_screen_shell(const ves_problem *p, FILE *out)
+static void mesh_row(app_table *t, const char *what, const ves_shell_facts *f)
+{
+    char part[80] = "the whole shell";
+    if (f->order == 0) return;
+    if (f->copies == 0)
+        snprintf(part, sizeof part, "a strip of a surface of revolution");
+    else if (f->copies > 1)
+        snprintf(part, sizeof part, "1/%d of it, %s", f->copies,
+                 f->mirrored ? "between mirror planes" : "which comes again turned");
+    app_table_cell(t, "%s", what);
+    app_table_cell(t, "%s: %d element%s of order %d, %d degrees of freedom", part, f->elements,
+                   f->elements == 1 ? "" : "s", f->order, f->freedoms);
+    app_table_end(t);
+}
+
+void app_screen_shell(const ves_problem *p, const ves_shell_facts facts[2], FILE *out)
 {
     const ves_shell_def *s = p->shell;
     app_table t = {.align = "ll"};
@@ -63,16 +78,26 @@ void app_screen_shell(const ves_problem *p, FILE *out)
         app_table_end(&t);
     }
     for (int k = 0; k < s->cases; k++) loads_row(&t, p, &s->load_case[k]);
+    mesh_row(&t, "solved", &facts[0]);
+    mesh_row(&t, "verified", &facts[1]);
     app_table_print(&t, out);
     fputc('\n', out);
 }
 
-void app_screen_shell_json(const ves_problem *p, ves_json *json)
+void app_screen_shell_json(const ves_problem *p, const ves_shell_facts facts[2], ves_json *json)
 {
     static const char *const support[] = {"fix", "symmetry", "diaphragm", "spring"};
     const ves_shell_def *s = p->shell;
     if (!s) return;
     ves_json_object(json, "shell");
+    for (int k = 0; k < 2 && facts[k].order; k++) {
+        ves_json_object(json, k ? "verified" : "solved");
+        ves_json_integer(json, "order", facts[k].order);
+        ves_json_integer(json, "elements", facts[k].elements);
+        ves_json_integer(json, "freedoms", facts[k].freedoms);
+        ves_json_integer(json, "copies", facts[k].copies);
+        ves_json_end(json, '}');
+    }
     ves_json_text(json, "material", s->made_of);
     ves_json_object(json, "parts");
     for (int k = 0; k < s->parts; k++) ves_json_text(json, p->patch[s->part[k].patch].name, s->part[k].text);

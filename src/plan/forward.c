@@ -21,8 +21,11 @@ static ves_status measure_cost(ves_plan *plan, int index, plan_program which, bo
         if (p->measure[m].measure->shell && dear) VES_TRY(ves_shell_run(plan, index));
         ves_status status =
             p->measure[m].measure->eval(&plan->level[index].instance[m].input, &plan->value[m]);
-        /* a plugin's own word for "cannot be measured"; only the plan cuts, and only modes of buckling are loose */
-        bool own = p->measure[m].measure->buckles && (status == VES_LOOSE || status == VES_NO_CONVERGENCE);
+        /* a plugin's own word for "cannot be measured"; only the plan cuts, only modes of buckling are loose, only shells
+         * lack a wall */
+        const ves_measure *measure = p->measure[m].measure;
+        bool own = (measure->buckles && (status == VES_LOOSE || status == VES_NO_CONVERGENCE)) ||
+                   (measure->shell && status == VES_NO_WALL);
         if ((status >= VES_NO_SCALE && !own) || status == VES_CUT) status = VES_NO_NUMBER;
         if (status == VES_OK && !isfinite(plan->value[m])) status = VES_NO_NUMBER;
         if (status == VES_NO_NUMBER) plan->numberless = m;

@@ -198,6 +198,22 @@ void ves_shell_end(ves_plan *plan)
         if (plan->level[k].shell) ves_shell_destroy(plan->level[k].shell->shell);
 }
 
+ves_shell_facts ves_plan_shell(const ves_plan *plan, int level)
+{
+    const plan_shell *shell = plan->level[level].shell;
+    ves_shell_facts facts = {0};
+    if (!shell || !shell->solid) return facts;
+    for (int k = 0; k < shell->def->parts; k++) {
+        const ves_shell_sheet *sheet = &shell->sheet[k];
+        facts.elements += sheet->elements[0] * sheet->elements[1];
+        if (sheet->order[0] > facts.order) facts.order = sheet->order[0];
+    }
+    facts.freedoms = ves_shell_freedoms(shell->shell);
+    facts.copies = shell->sector.ring ? 0 : (int)lround(shell->sector.copies);
+    facts.mirrored = shell->sector.mirrored;
+    return facts;
+}
+
 /* --- solving --- */
 
 static bool has_walls(const plan_shell *shell)

@@ -5,7 +5,7 @@
 
 #include "base/vector.h"
 
-enum { NODES_A_WAVE = 8, NODES_LEAST = 24 };
+enum { NODES_A_WAVE = 8, NODES_LEAST = 48 };
 
 /* What is chosen where the file says nothing. The annealer's elements are of order 6, graded towards both ends, where shells
  * have layers of length sqrt(R t): on a smooth surface five of them along u err five times less than MITC9's twelve, in the

@@ -11,10 +11,17 @@ enum { SIXTHS = 6, ENDS = 3, SHORT = 8 };
 
 static void show_si(ves_dim dim, ves_shown *shown)
 {
+    static const char *const named[] = {"N", "Pa", "J", "N/m"};
     char text[48];
-    ves_dim_text(dim, text);
+    ves_dim of;
     *shown = (ves_shown){.factor = 1};
-    if (!ves_dim_plain(dim) && strlen(text) < VES_UNIT_TEXT) memcpy(shown->unit, text, strlen(text) + 1);
+    if (ves_dim_plain(dim)) return;
+    ves_dim_text(dim, text);
+    const char *word = text;
+    for (size_t k = 0; k < sizeof named / sizeof *named; k++)
+        if (ves_dim_read(named[k], &of, &shown->factor) && ves_dim_equal(of, dim)) word = named[k];
+    shown->factor = 1;
+    if (strlen(word) < VES_UNIT_TEXT) memcpy(shown->unit, word, strlen(word) + 1);
 }
 
 /* The ends of a range come before its start, which --set may have written otherwise. */

@@ -1,3 +1,5 @@
+#include <math.h>
+
 #include "base/domain.h"
 #include "formula/formula.h"
 #include "shell/view.h"
@@ -22,19 +24,22 @@ static size_t room(const ves_measure_input *input)
     return (size_t)most;
 }
 
-/* Volume of the wall: integral of the thickness over the patches that are parts of the shell. */
+/* Volume of the wall: integral of the thickness over the patches that are parts of the shell. NAN: somewhere there is none. */
 static double wall(const ves_measure_input *input)
 {
     double sum = 0, at[NAMES];
+    bool all = true;
     for (int i = 0; i < input->samples; i++) {
         const ves_samples *s = input->sample[i];
         const ves_formula *t = input->shell->thickness[s->patch];
         for (int n = 0; t && n < s->count; n++) {
             place(s, n, at);
-            sum += ves_formula_eval(t, input->number, at, input->room) * s->dA[n];
+            double thickness = ves_formula_eval(t, input->number, at, input->room);
+            all = all && thickness > 0;
+            sum += thickness * s->dA[n];
         }
     }
-    return sum;
+    return all ? sum : NAN;
 }
 
 /* Density times thickness, over the mid-surface. By the quadrature of the surface, not by elements: as exact as its area.
@@ -43,7 +48,7 @@ static ves_status eval(const ves_measure_input *input, double *value)
 {
     if (input->shell->density < 0) return VES_NO_NUMBER;
     *value = input->number[input->shell->density] * wall(input);
-    return VES_OK;
+    return isnan(*value) ? VES_NO_WALL : VES_OK;
 }
 
 static void gradient(const ves_measure_input *input, double seed, const ves_adjoint *const *adjoint,
