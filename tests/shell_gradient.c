@@ -223,3 +223,27 @@ Test(shell_gradient, repeats_itself)
     cr_assert(memcmp(jacobian[0], jacobian[2], sizeof *x * (size_t)(3 * n)) == 0);
     bed_clear(&b);
 }
+
+/* A constraint that reads the material is the one with the material's formula written out, to the last bit, and the
+ * variable of which the material is made drives it. */
+Test(shell_gradient, goes_through_the_material)
+{
+#define BOUND(limit)                                                                                         \
+    POT("", "", "", "bowl: {thickness: 0.02}",                                                               \
+        "  mesh: {order: 6, elements: [2, 8]}\n" PUSHED "constraints: [a <= " limit "]\n")
+    const trial t[2] = {{.text = BOUND("material.E*w1 + material.nu")},
+                        {.text = BOUND("1e6*(1 + 0.1*up)*w1 + 0.3")}};
+    double g[MOST], c[2], jacobian[2][MOST];
+    int n = 0;
+    for (int k = 0; k < 2; k++) {
+        bed b = bed_of(&t[k], "compliance: {}");
+        const ves_search_problem pose = ves_plan_search(&b.plan, 1);
+        ves_verdict verdict = {.gradient = g, .constraint = &c[k], .jacobian = jacobian[k]};
+        const ves_ask ask = {.x = pose.start, .cutoff = HUGE_VAL, .want = VES_WANT_GRADIENT};
+        cr_assert(ves_plan_evaluate(b.plan, &ask, &verdict) == VES_OK && verdict.status == VES_OK);
+        n = pose.n;
+        bed_clear(&b);
+    }
+    cr_assert(memcmp(jacobian[0], jacobian[1], sizeof *g * (size_t)n) == 0 && c[0] == c[1]);
+    cr_assert(jacobian[0][3] != 0, "up drives the limit");
+}

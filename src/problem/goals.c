@@ -93,8 +93,8 @@ static bool read_relation(scope *s, const ves_node *node, relation *r)
     if (!split(s->reader, node, r, &left_end, &right_begin)) return false;
     r->left_part = (ves_text_part){node, 0, left_end};
     ves_text_part right = {node, right_begin, (int)strlen(node->text)};
-    r->left = ves_reader_formula(s->reader, r->left_part, s->symbol, s->symbols);
-    r->right = ves_reader_formula(s->reader, right, s->symbol, s->symbols);
+    r->left = ves_reader_goal(s->reader, r->left_part, s->symbol, s->symbols);
+    r->right = ves_reader_goal(s->reader, right, s->symbol, s->symbols);
     check_sides(s->reader, node, r);
     return r->left && r->right;
 }
@@ -187,7 +187,7 @@ static void read_objective(scope *s, const ves_fields *root)
         ves_reader_error(s->reader, VES_SYNTAX, high,
                          "only one of \"minimize\" and \"maximize\" can be asked for");
     if (!node || !ves_reader_word(s->reader, node, "formula of measures")) return;
-    problem->objective = ves_reader_formula(s->reader, ves_text_whole(node), s->symbol, s->symbols);
+    problem->objective = ves_reader_goal(s->reader, ves_text_whole(node), s->symbol, s->symbols);
     problem->objective_text = node->text;
     problem->objective_mark = ves_reader_mark(s->reader, node);
     problem->maximize = !low;
@@ -260,7 +260,7 @@ static void read_holds(scope *s, const ves_node *list)
     for (int k = 0; k < all.count; k++) {
         const ves_node *node = all.item[k];
         if (!ves_reader_word(reader, node, "check, as in willmore >= 4*pi")) continue;
-        const ves_formula *formula = ves_reader_formula(reader, ves_text_whole(node), s->symbol, s->symbols);
+        const ves_formula *formula = ves_reader_goal(reader, ves_text_whole(node), s->symbol, s->symbols);
         out[k] = (ves_expect_def){ves_reader_mark(reader, node), node->text, formula};
         if (formula && !depends(s, formula))
             ves_reader_error(reader, VES_RANGE, node, "this check depends on no measure and no variable");
@@ -283,7 +283,7 @@ static void read_kinds(scope *s)
         out[k] = (ves_kind_def){.name = names->name[k].text, .mark = ves_reader_mark(reader, node)};
         if (!ves_reader_word(reader, node, "condition, as in width > 2*depth")) continue;
         out[k].text = node->text;
-        out[k].formula = ves_reader_formula(reader, ves_text_whole(node), s->symbol, s->symbols);
+        out[k].formula = ves_reader_goal(reader, ves_text_whole(node), s->symbol, s->symbols);
         if (out[k].formula && ves_formula_is_constant(out[k].formula, NULL))
             ves_reader_error(reader, VES_RANGE, node,
                              "this condition reads no measure, variable or parameter");
@@ -304,7 +304,7 @@ static const ves_expect_def *read_expect(scope *s, const ves_node *list, int *co
         const ves_node *node = all.item[k];
         if (!ves_reader_word(s->reader, node, "check, as in violation < 1e-6")) continue;
         out[k] = (ves_expect_def){ves_reader_mark(s->reader, node), node->text,
-                                  ves_reader_formula(s->reader, ves_text_whole(node), s->check, s->checks)};
+                                  ves_reader_goal(s->reader, ves_text_whole(node), s->check, s->checks)};
     }
     s->reader->owner = -1;
     *count = all.count;

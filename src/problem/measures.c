@@ -187,7 +187,8 @@ ves_symbol *ves_reader_symbols(ves_reader *reader, bool expect, int *count)
     int all = all_measures(reader, NULL, NULL, 1 << 20), at = 0;
     const ves_measure **measure = ves_arena_take(reader->arena, (size_t)all, sizeof *measure);
     ves_symbol *symbol = ves_arena_take(
-        reader->arena, (size_t)(reader->measures_read + VES_EXPECT_NAMES + all), sizeof *symbol);
+        reader->arena, (size_t)(reader->measures_read + VES_EXPECT_NAMES + all + VES_MATERIAL_NAMES),
+        sizeof *symbol);
     *count = 0;
     if (!ves_reader_memory(reader, symbol) || !ves_reader_memory(reader, measure)) return NULL;
     all_measures(reader, NULL, measure, all);
@@ -203,7 +204,8 @@ ves_symbol *ves_reader_symbols(ves_reader *reader, bool expect, int *count)
             named = !strcmp(symbol[i].name, measure[k]->name);
         if (!named) symbol[at++] = (ves_symbol){measure[k]->name, {.any = true}};
     }
-    *count = at;
+    ves_reader_material_symbols(symbol + at);
+    *count = at + VES_MATERIAL_NAMES;
     return symbol;
 }
 
@@ -219,7 +221,8 @@ void ves_reader_plain_measures(ves_reader *reader, const ves_node *node)
     ves_arena scratch = {0};
     ves_status status = ves_formula_compile(node->text, &scope, &scratch, &formula, &error);
     if (status == VES_MEMORY) reader->status = status;
-    for (int k = known + VES_EXPECT_NAMES; status == VES_OK && k < count && reader->status != VES_MEMORY; k++)
+    for (int k = known + VES_EXPECT_NAMES;
+         status == VES_OK && k < count - VES_MATERIAL_NAMES && reader->status != VES_MEMORY; k++)
         if (ves_formula_uses_argument(formula, k))
             add_plain(reader, ves_measure_find(symbol[k].name, reader->plugin), node);
     ves_arena_destroy(&scratch);

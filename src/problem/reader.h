@@ -10,7 +10,7 @@
 #include "problem/schema.h"
 #include "problem/tree.h"
 
-enum { VES_NAMES = 1000, VES_SLOTS = 1000, VES_KEYS = 32 }; /* VES_KEYS: of one thing */
+enum { VES_NAMES = 1000, VES_SLOTS = 1000, VES_KEYS = 32, VES_MATERIAL_NAMES = 4 }; /* VES_KEYS: of one thing */
 
 /* The names of one section, in the order of the file. */
 typedef struct ves_named {
@@ -121,6 +121,7 @@ typedef struct ves_reader {
     int measures_read;
 
     ves_shell_def *shell; /* being read, then read; NULL: the file has none */
+    const ves_node *material; /* its section, or NULL */
     ves_names cases;      /* its load cases */
     bool shell_known;     /* its parts, and the ends of these, are */
     bool cases_lost;      /* some of its cases could not be read */
@@ -297,6 +298,12 @@ bool ves_reader_of_shell(const ves_key *key);                        /* of a kin
 int ves_reader_case(ves_reader *reader, const ves_node *node);
 int ves_reader_only_case(ves_reader *reader, const ves_node *node, const ves_key *key);
 void ves_reader_shell_finish(ves_reader *reader); /* hands the places over */
+
+/* borrow.c: the names material.E, ... as symbols, VES_MATERIAL_NAMES of them; and a formula whose arguments end with
+ * these, which are replaced by what they stand for. NULL after an error. */
+void ves_reader_material_symbols(ves_symbol *symbol);
+const ves_formula *ves_reader_goal(ves_reader *reader, ves_text_part part, const ves_symbol *argument,
+                                   int arguments);
 
 /* sweep.c; and the changes of a file under a key `set` */
 void ves_reader_sweep(ves_reader *reader, const ves_fields *root);

@@ -25,7 +25,7 @@ static const ves_entry material_keys[] = {
     {{"E", VES_NUMBER, .unit = "Pa", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = NAN, .about = "Young's modulus"}, "E: 2e9", NULL},
     {{"nu", VES_NUMBER, .unit = "1", .min = -0.9999, .max = 0.4999, .fallback = NAN, .about = "Poisson's ratio"}, "nu: 0.35", NULL},
     {{"density", VES_NUMBER, .unit = "kg/m^3", .min = 0, .max = HUGE_VAL, .fallback = NAN, .about = "for mass and gravity"}, "density: 1050", NULL},
-    {{"yield", VES_NUMBER, .unit = "Pa", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = NAN, .about = "tensile yield strength, which measures may compare stresses with"}, "yield: 20e6", NULL},
+    {{"yield", VES_NUMBER, .unit = "Pa", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = NAN, .about = "tensile yield strength, which formulas of measures compare stresses with: shear <= material.yield/2"}, "yield: 20e6", NULL},
     {{"shear", VES_NUMBER, .unit = "1", .min = VES_POSITIVE, .max = HUGE_VAL, .fallback = 5.0 / 6, .about = "shear correction: the share of the wall that carries transverse shear; 5/6 unless given"}, "shear: 5/6", NULL},
     {{"like", KIND(VES_MATERIAL), .about = "a material of the table, for all that is not given"}, "like: hips", NULL},
     END};
@@ -72,7 +72,7 @@ static const ves_entry mesh_keys[] = {
 
 const ves_entry ves_schema_shell[] = {
     {{"parts", KIND(VES_NAMED), .required = true, .about = "the patches that are shells"}, "parts: {wall: {thickness: 0.1}}", part},
-    {{"material", KIND(VES_MATERIAL), .required = true, .words = "mapping", .about = "what it is made of, linear and elastic: a word of the table (vesica list materials), in files with units, or E, nu and what else is needed"}, "material: {E: 2e9, nu: 0.35, density: 1050, yield: 20e6}", material_keys},
+    {{"material", KIND(VES_MATERIAL), .required = true, .words = "mapping", .about = "what it is made of, linear and elastic: a word of the table (vesica list materials), in files with units, or E, nu and what else is needed. Objective, constraints, equations, checks and conditions of kinds read material.E, .nu, .density and .yield"}, "material: {E: 2e9, nu: 0.35, density: 1050, yield: 20e6}", material_keys},
     {{"supports", KIND(VES_LIST), .about = "what holds it; there must be some"}, "supports: [{at: p1, fix: all}]", support},
     {{"cases", KIND(VES_NAMED), .about = "load cases, each solved by itself; measures name them"}, "cases: {stack: [{at: p2, line: [0, -187, 0]}]}", load_case},
     {{"mesh", KIND(VES_MAP), .words = "auto", .about = "the elements in searches; auto: chosen"}, "mesh: {order: 2, elements: [12, 24], grading: 1.8}", mesh_keys},

@@ -189,6 +189,7 @@ void ves_reader_material(ves_reader *reader, const ves_node *node)
 {
     ves_fields f;
     ves_shell_def *shell = reader->shell;
+    reader->material = node;
     if (node->kind == VES_NODE_WORD && *node->text) {
         const ves_material *found = ask_material(reader, node);
         shell->material = shell->made_of = found ? found->name : NULL;
