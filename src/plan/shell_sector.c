@@ -1,7 +1,8 @@
 /* Sectors: what a shell has in common with itself, turned about an axis or mirrored in a plane through it. Patches go
  * round in v; the shell is the same turned by 2 pi / N when X(u, v + 2 pi / N) is X(u, v) turned, in all its parts, and
- * so are thicknesses, supports and loads; mirrored when X(u, 2 v0 - v) is X(u, v) mirrored. Looked at on a lattice of
- * places, at several designs: what holds there to rounding holds always, since it is the file that makes it so. */
+ * so are thicknesses, supports, loads and what measures ask; mirrored when X(u, 2 v0 - v) is X(u, v) mirrored. Looked at on a
+ * lattice of places, close enough around to see what is local, at several designs: what holds there to rounding holds
+ * always, since it is the file that makes it so. */
 #include "plan/shell.h"
 
 #include <math.h>
@@ -9,7 +10,19 @@
 
 #include "base/vector.h"
 
-enum { ALONG = 3, AROUND = 8, PLACES = ALONG * AROUND, FEW = 6, FOLDS = 64, LOW_FOLDS = 8 };
+enum {
+    ALONG = 8,
+    AROUND = 96,
+    COARSE = 16,
+    PLACES = ALONG * AROUND,
+    FEW = 6,
+    FOLDS = 64,
+    LOW_FOLDS = 8,
+    ENDS = 6
+};
+
+/* Rows of places: those inside, then (ENDS) the two ends. */
+static const double ROW[ALONG] = {0.43, 0.1, 0.77, 0.27, 0.61, 0.93, 0, 1};
 
 static const double SAME = 1e-9;  /* of the shell's size, or of the largest value */
 static const double STRIP = 1e-3; /* rad: the ring's strip; what it leaves out is of the square of this */
@@ -18,8 +31,12 @@ typedef struct seeker {
     ves_plan *plan;
     const plan_shell *shell;
     double *room, *out;
+    const double *here;              /* positions of a part at places */
+    double *few, *there;             /* room for those of few, and for those of images */
+    double **all;                    /* [parts] of all places */
+    bool *taken;                     /* [parts] at this design */
     double axis[3], centre[3], size; /* at the design that is bound */
-    int places; /* of those below, at which is looked: a few of them tell most that is not alike */
+    int around, places; /* of those below, at which is looked: a few of them tell most that is not alike */
     double u[PLACES], v[PLACES];
 } seeker;
 
@@ -64,17 +81,17 @@ static bool measure(seeker *k)
 {
     double most = 0;
     k->size = 0;
-    k->places = PLACES;
+    k->places = ALONG * k->around;
     const double *X = points(k, 0, 1, 0);
     for (int row = 0; row < ALONG; row++) {
         double mean[3] = {0}, area[3] = {0};
         for (int c = 0; c < 3; c++)
-            for (int j = 0; j < AROUND; j++) mean[c] += X[c * PLACES + row * AROUND + j] / AROUND;
-        for (int j = 0; j < AROUND; j++) {
+            for (int j = 0; j < k->around; j++) mean[c] += X[c * k->places + row * k->around + j] / k->around;
+        for (int j = 0; j < k->around; j++) {
             double a[3], b[3], cross[3];
             for (int c = 0; c < 3; c++) {
-                a[c] = X[c * PLACES + row * AROUND + j] - mean[c];
-                b[c] = X[c * PLACES + row * AROUND + (j + 1) % AROUND] - mean[c];
+                a[c] = X[c * k->places + row * k->around + j] - mean[c];
+                b[c] = X[c * k->places + row * k->around + (j + 1) % k->around] - mean[c];
             }
             ves_cross(a, b, cross);
             for (int c = 0; c < 3; c++) area[c] += cross[c];
@@ -107,42 +124,100 @@ static double image_v(const seeker *k, const likeness *l, int i)
     return v < 0 ? v + VES_TWO_PI : v;
 }
 
-/* One formula, or three that are a vector, at places and at their images. */
-static bool formulas_alike(seeker *k, const likeness *l, int part, int count,
+/* Positions of a part, for what follows. */
+static void part_take(seeker *k, const likeness *l, int part)
+{
+    const size_t size = (size_t)(3 * k->places) * sizeof *k->out;
+    double *here = k->places == FEW ? k->few : k->all[part];
+    if (k->places == FEW || !k->taken[part]) memcpy(here, points(k, part, 1, 0), size);
+    if (k->places != FEW) k->taken[part] = true;
+    k->here = here;
+    memcpy(k->there, points(k, part, l->sign, l->shift), size);
+}
+
+static bool shape_alike(const seeker *k, const likeness *l)
+{
+    for (int i = 0; i < k->places; i++) {
+        double r[3], turned[3];
+        for (int c = 0; c < 3; c++) r[c] = k->here[c * k->places + i] - k->centre[c];
+        apply((double(*)[3])l->Q, r, turned);
+        for (int c = 0; c < 3; c++)
+            if (!(fabs(k->there[c * k->places + i] - turned[c] - k->centre[c]) <= SAME * k->size))
+                return false;
+    }
+    return true;
+}
+
+/* One formula, or three that are a vector, at places and at their images. end: of the part, -1: all over it. */
+static bool formulas_alike(const seeker *k, const likeness *l, int part, int end, int count,
                            const ves_formula *const *formula)
 {
-    double before[3 * PLACES], most = 0, worst = 0;
-    const double *X = points(k, part, 1, 0);
-    for (int i = 0; i < k->places; i++) {
+    double most = 0, worst = 0;
+    int from = end < 0 ? 0 : (ENDS + end) * k->around, to = end < 0 ? k->places : from + k->around;
+    for (int i = from; i < to; i++) {
         double f[3] = {0}, turned[3];
-        for (int c = 0; c < count; c++) f[c] = formula_at(k, part, X, i, k->v[i], formula[c]);
-        if (count == 3) apply((double(*)[3])l->Q, f, turned);
-        for (int c = 0; c < count; c++) before[c * k->places + i] = count == 3 ? turned[c] : f[c];
-        for (int c = 0; c < count; c++) most = fmax(most, fabs(f[c]));
-    }
-    X = points(k, part, l->sign, l->shift);
-    for (int i = 0; i < k->places; i++)
         for (int c = 0; c < count; c++) {
-            double apart =
-                fabs(formula_at(k, part, X, i, image_v(k, l, i), formula[c]) - before[c * k->places + i]);
+            f[c] = turned[c] = formula_at(k, part, k->here, i, k->v[i], formula[c]);
+            most = fmax(most, fabs(f[c]));
+        }
+        if (count == 3) apply((double(*)[3])l->Q, f, turned);
+        for (int c = 0; c < count; c++) {
+            double apart = fabs(formula_at(k, part, k->there, i, image_v(k, l, i), formula[c]) - turned[c]);
             if (!(apart <= worst)) worst = apart;
         }
+    }
     return worst <= SAME * most || most == 0;
 }
 
-static bool shape_alike(seeker *k, const likeness *l, int part)
+/* --- what measures ask --- */
+
+/* Of stresses: whether a place counts, not at the ends, where rounding may tell. */
+static bool counts(const seeker *k, int part, const double *X, int i, double v, const ves_formula *where)
 {
-    double before[3 * PLACES];
-    const double *X = points(k, part, 1, 0);
-    for (int i = 0; i < k->places; i++) {
-        double r[3], turned[3];
-        for (int c = 0; c < 3; c++) r[c] = X[c * k->places + i] - k->centre[c];
-        apply((double(*)[3])l->Q, r, turned);
-        for (int c = 0; c < 3; c++) before[c * k->places + i] = turned[c] + k->centre[c];
+    enum { THICKNESS = VES_SHELL_ARGUMENTS };
+    double at[THICKNESS + 1] = {X[i], X[k->places + i], X[2 * k->places + i]};
+    ves_plan_domain_at(k->plan, k->shell->def->part[part].patch, k->u[i], v, &at[VES_SHELL_U]);
+    at[THICKNESS] = formula_at(k, part, X, i, v, k->shell->def->part[part].thickness);
+    return ves_formula_eval(where, k->plan->block, at, k->plan->formula_room) != 0;
+}
+
+static bool where_alike(const seeker *k, const likeness *l, int part, const ves_formula *where)
+{
+    for (int i = 0; i < ENDS * k->around; i++)
+        if (counts(k, part, k->here, i, k->v[i], where) !=
+            counts(k, part, k->there, i, image_v(k, l, i), where))
+            return false;
+    return true;
+}
+
+/* The largest displacement along a direction, of all: that direction, or its opposite. */
+static bool direction_alike(const likeness *l, const double d[3])
+{
+    double turned[3], size = sqrt(ves_dot(d, d));
+    apply((double(*)[3])l->Q, d, turned);
+    return fabs(fabs(ves_dot(turned, d)) - size * size) <= SAME * size * size;
+}
+
+static bool measure_alike(const seeker *k, const likeness *l, int part, const ves_measure_def *m)
+{
+    const double *along = NULL;
+    bool placed = false;
+    for (int a = 0; a < m->args.count; a++) {
+        const ves_key *key = &m->args.key[a];
+        const ves_arg *arg = &m->args.arg[a];
+        if (!arg->given) continue;
+        if (key->kind == VES_SHELLWISE && !where_alike(k, l, part, arg->formula[0])) return false;
+        if (key->kind == VES_SHELL_AT || key->kind == VES_SHELL_HELD) placed = true;
+        if (key->kind == VES_VECTOR) along = k->plan->block + arg->first;
     }
-    X = points(k, part, l->sign, l->shift);
-    for (int i = 0; i < 3 * k->places; i++)
-        if (!(fabs(X[i] - before[i]) <= SAME * k->size)) return false;
+    return placed || !along || direction_alike(l, along);
+}
+
+static bool measures_alike(const seeker *k, const likeness *l, int part)
+{
+    const ves_problem *p = k->plan->problem;
+    for (int m = 0; m < p->measures; m++)
+        if (p->measure[m].measure->shell && !measure_alike(k, l, part, &p->measure[m])) return false;
     return true;
 }
 
@@ -176,33 +251,42 @@ static bool support_alike(const seeker *k, const likeness *l, const ves_support_
            space_alike(l, (const double(*)[3])turn);
 }
 
-static bool load_alike(seeker *k, const likeness *l, const ves_load_def *load)
+/* On one part. */
+static bool load_alike(const seeker *k, const likeness *l, int part, const ves_load_def *load)
 {
     bool edge = load->kind == VES_LOAD_LINE || load->kind == VES_LOAD_FORCE;
     if (edge && load->at.kind == VES_AT_PLACE) return false;
     int count = load->kind == VES_LOAD_PRESSURE ? 1 : 3;
-    if (edge) return formulas_alike(k, l, load->at.on[0].part, count, load->formula);
+    const ves_shell_edge *on = &load->at.on[0]; /* of a curve: where the load is taken */
+    if (edge) return on->part != part || formulas_alike(k, l, part, on->edge, count, load->formula);
     for (int i = 0; i < load->parts; i++)
-        if (!formulas_alike(k, l, load->part[i], count, load->formula)) return false;
+        if (load->part[i] == part && !formulas_alike(k, l, part, -1, count, load->formula)) return false;
     return true;
+}
+
+static bool part_alike(seeker *k, const likeness *l, int part)
+{
+    const ves_shell_def *def = k->shell->def;
+    part_take(k, l, part);
+    if (!shape_alike(k, l)) return false;
+    if (k->places == FEW) return true;
+    if (!formulas_alike(k, l, part, -1, 1, &def->part[part].thickness)) return false;
+    for (int c = 0; c < def->cases; c++)
+        for (int i = 0; i < def->load_case[c].loads; i++)
+            if (!load_alike(k, l, part, &def->load_case[c].load[i])) return false;
+    return measures_alike(k, l, part);
 }
 
 static bool alike(seeker *k, const likeness *l)
 {
     const ves_shell_def *def = k->shell->def;
-    for (int p = 0; p < def->parts; p++) {
-        k->places = FEW;
-        if (!shape_alike(k, l, p)) return false;
-    }
-    for (int p = 0; p < def->parts; p++) {
-        k->places = PLACES;
-        if (!shape_alike(k, l, p) || !formulas_alike(k, l, p, 1, &def->part[p].thickness)) return false;
-    }
     for (int s = 0; s < def->supports; s++)
         if (!support_alike(k, l, &def->support[s])) return false;
-    for (int c = 0; c < def->cases; c++)
-        for (int i = 0; i < def->load_case[c].loads; i++)
-            if (!load_alike(k, l, &def->load_case[c].load[i])) return false;
+    for (int pass = 0; pass < 2; pass++) {
+        k->places = pass ? ALONG * k->around : FEW;
+        for (int p = 0; p < def->parts; p++)
+            if (!part_alike(k, l, p)) return false;
+    }
     return true;
 }
 
@@ -300,6 +384,29 @@ static void sector_fill(seeker *k, const finding *f, plan_sector *s)
     memcpy(s->axis, k->axis, sizeof s->axis);
 }
 
+static ves_status rooms_make(seeker *k, int parts)
+{
+    ves_arena *arena = &k->plan->arena;
+    k->few = ves_arena_doubles(arena, 3 * FEW);
+    k->there = ves_arena_doubles(arena, 3 * PLACES);
+    k->all = ves_arena_take(arena, (size_t)parts, sizeof *k->all);
+    k->taken = ves_arena_take(arena, (size_t)parts, sizeof *k->taken);
+    if (!k->few || !k->there || !k->all || !k->taken) return VES_MEMORY;
+    for (int p = 0; p < parts; p++)
+        if (!(k->all[p] = ves_arena_doubles(arena, 3 * PLACES))) return VES_MEMORY;
+    return VES_OK;
+}
+
+/* Close around at one design; the others tell what varies. */
+static void places_lay(seeker *k, int around)
+{
+    k->around = around;
+    for (int i = 0; i < ALONG * around; i++) {
+        k->u[i] = ROW[i / around];
+        k->v[i] = VES_TWO_PI * (i % around + 0.1) / around; /* the first few: of one ring */
+    }
+}
+
 ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell)
 {
     plan_sector *s = &shell->sector;
@@ -318,11 +425,11 @@ ves_status ves_shell_sector_find(ves_plan *plan, plan_shell *shell)
     k.room = ves_arena_doubles(&plan->arena, (size_t)room);
     k.out = ves_arena_doubles(&plan->arena, (size_t)(3 * VES_POLE_FIELDS * PLACES));
     if (!k.room || !k.out) return VES_MEMORY;
-    for (int i = 0; i < PLACES; i++)
-        k.u[i] = (i / AROUND + 0.3) / ALONG,
-        k.v[i] = VES_TWO_PI * (i % AROUND + 0.1) / AROUND; /* the first few: of one ring */
+    VES_TRY(rooms_make(&k, shell->def->parts));
     for (int d = SHELL_DESIGNS - 1; d >= 0; d--) {
         ves_shell_design(plan, d);
+        places_lay(&k, d == 0 ? AROUND : COARSE);
+        memset(k.taken, 0, sizeof *k.taken * (size_t)shell->def->parts);
         if (!measure(&k)) continue;
         look(&k, &f);
         f.any = true;
